@@ -1,0 +1,20 @@
+// Tube filling: a loose cloud of pellets falls into a vertical tube and comes to rest.
+#pragma once
+
+#include "core/observables.hpp"
+#include "packing/run_frames.hpp"
+
+namespace pelletlab::packing {
+
+struct RunResult {
+    Observables observables;
+    std::uint64_t state_hash = 0;
+    std::uint64_t steps = 0;
+    double wall_seconds = 0.0;  ///< of stepping alone
+    double pellet_steps_per_second = 0.0;
+};
+
+/// The case's rig must be `tube`. `open_sink` is called once with the header and returns where frames go; frames are measured from memory.
+RunResult fill_tube(const Case& c, const RunInputs& inputs, const std::function<FrameSink(const TrajectoryHeader&)>& open_sink, const ProgressSink& progress);
+
+}  // namespace pelletlab::packing

@@ -1,0 +1,32 @@
+// The whole way from a checked mesh to a clump template: distance, fit, quality, mass properties.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/clump_template.hpp"
+#include "core/progress.hpp"
+#include "core/triangle_mesh.hpp"
+#include "shapegen/fit.hpp"
+
+namespace pelletlab::shapegen {
+
+struct ClumpSettings {
+    FitSettings fit;
+    double density = 1800.0;  ///< [kg/m³]
+    MassSource mass_source = MassSource::target_mesh;
+    double voxel_fraction = 1.0 / 64.0;  ///< voxel of the search grid / smallest extent of the body
+};
+
+struct MadeClump {
+    ClumpTemplate clump;  ///< spheres in the body frame (centre of mass, principal axes)
+    FitResult fit;        ///< spheres in the mesh frame
+};
+
+/// `body` closed and outward oriented (meshes::require_closed_body).
+MadeClump make_clump(const TriangleMesh& body, const ClumpSettings& settings, const ProgressSink& progress = {});
+
+/// Moves a set of mesh-frame spheres into the body frame of `mass` and wraps them up as a template.
+RigidTemplate rigid_template(std::string name, std::span<const Sphere> spheres_mesh, const MassProperties& mass);
+
+}  // namespace pelletlab::shapegen

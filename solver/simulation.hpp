@@ -1,0 +1,132 @@
+// The DEM engine: bodies made of spheres, triangle-mesh walls, contact laws, time steps. It knows spheres, bodies and walls and
+// never sees how a clump was made or what a rig is.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/rigid_template.hpp"
+#include "core/triangle_mesh.hpp"
+#include "core/vec.hpp"
+
+namespace pelletlab::solver {
+
+struct ElasticMaterial {
+    double shear_modulus = 2e6;  ///< [Pa]
+    double poisson_ratio = 0.25;
+};
+
+/// Contact parameters of pellet–pellet or pellet–one wall.
+struct PairParameters {
+    double restitution = 0.4;
+    double sliding_friction = 0.7;
+    double rolling_friction = 0.05;
+};
+
+/// Rigid rotation of a wall about a fixed axis, starting when the simulation is told to (Simulation::set_wall_motion).
+struct WallMotion {
+    Vec3 point = Vec3::Zero();     ///< [m], on the axis
+    Vec3 axis = {0.0, 1.0, 0.0};   ///< unit
+    double rotation_speed = 0.0;   ///< [rad/s], right-handed about the axis
+    Vec3 velocity = Vec3::Zero();  ///< [m/s], translation added to it
+};
+
+struct WallDefinition {
+    std::string name;
+    TriangleMesh mesh;  ///< world frame at time 0; normals play no role, both sides act
+    ElasticMaterial material;
+    PairParameters contact;  ///< with the pellets
+    WallMotion motion;
+    double feature_angle = 0.5235987755982988;  ///< [rad], joins flatter than this (30°) belong to one smooth patch
+};
+
+struct SimulationDefinition {
+    std::vector<RigidTemplate> templates;
+    ElasticMaterial pellet_material;
+    PairParameters pellet_contact;
+    std::vector<WallDefinition> walls;
+    Vec3 gravity = {0.0, 0.0, -9.81};  ///< [m/s²]
+    double time_step = 1e-5;           ///< [s]
+    Box domain;                        ///< a body whose centre leaves it is an Error(numerical) with place, time and cause; empty: the walls' box, enlarged
+};
+
+struct BodyPlacement {
+    std::uint32_t template_index = 0;
+    Pose pose;
+    Vec3 velocity = Vec3::Zero();  ///< [m/s]
+    Vec3 spin = Vec3::Zero();      ///< [rad/s], world
+};
+
+/// Structure of arrays, one entry a body, in the order in which bodies were added.
+struct BodyState {
+    std::vector<std::uint32_t> template_index;
+    std::vector<Vec3> position;     ///< [m], world
+    std::vector<Quat> orientation;  ///< body → world
+    std::vector<Vec3> velocity;     ///< [m/s], world, same instant as position
+    std::vector<Vec3> spin;         ///< [rad/s], world, same instant
+    std::vector<Vec3> force;        ///< [N], world, contact and gravity
+    std::vector<Vec3> torque;       ///< [N m], world, about the centre of mass
+    std::size_t size() const { return position.size(); }
+};
+
+struct WallLoad {
+    Vec3 force = Vec3::Zero();   ///< [N], on the wall
+    Vec3 torque = Vec3::Zero();  ///< [N m], on the wall, about motion.point
+};
+
+struct ContactSummary {
+    std::size_t sphere_contacts = 0;  ///< touching sphere pairs
+    std::size_t wall_contacts = 0;
+    std::size_t touching_pairs = 0;      ///< touching body pairs
+    double largest_overlap_ratio = 0.0;  ///< overlap / radius of the smaller sphere
+};
+
+struct EnergyReport {
+    double kinetic_translation = 0.0, kinetic_rotation = 0.0, gravity = 0.0;  ///< [J]
+};
+
+class Simulation {
+public:
+    /// Throws Error(bad_input) for a definition that cannot be run.
+    explicit Simulation(SimulationDefinition definition);
+    ~Simulation();
+    Simulation(Simulation&&) noexcept;
+    Simulation& operator=(Simulation&&) noexcept;
+
+    /// Throws Error(bad_input) when bodies overlap each other or a wall by more than 5 % of their smallest sphere's radius.
+    void add_bodies(std::span<const BodyPlacement> bodies);
+
+    /// One time step: see solver/step.cpp, a list of named stages.
+    void step();
+    void advance(std::uint64_t steps);
+
+    void set_wall_motion(std::size_t wall, const WallMotion& motion);
+
+    double time() const;
+    std::uint64_t step_count() const;
+    const SimulationDefinition& definition() const;
+    const BodyState& bodies() const;
+    std::vector<Pose> wall_poses() const;
+    const std::vector<WallLoad>& wall_loads() const;
+    ContactSummary contacts() const;
+    EnergyReport energy() const;
+
+    /// Hash over every bit that decides the future: poses, velocities, contact history, wall poses.
+    std::uint64_t state_hash() const;
+
+    /// Written to a temporary name and renamed. A restored simulation goes on bit for bit.
+    void save_checkpoint(const std::filesystem::path& file) const;
+    void load_checkpoint(const std::filesystem::path& file);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace pelletlab::solver
