@@ -33,7 +33,7 @@ if(PELLETLAB_COVERAGE)
 endif()
 
 # Warnings for our own rooms only (pelletlab_room), not for what they include.
-set(PELLETLAB_WARNINGS -Wall -Wextra)
+set(PELLETLAB_WARNINGS -Wall -Wextra $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # gcc 12 warns falsely about std::string (bug 105651)
 if(PELLETLAB_WARNINGS_AS_ERRORS)
   list(APPEND PELLETLAB_WARNINGS -Wconversion -Wshadow -Werror)
 endif()
