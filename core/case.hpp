@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/vec.hpp"
 
@@ -12,11 +13,21 @@ namespace pelletlab {
 
 enum class Rig { tube, drum };
 
+inline std::string rig_name(Rig rig) {
+    return rig == Rig::drum ? "drum" : "tube";
+}
+
+/// Names of a rig's walls: a contact row «pellet-<wall name>» goes before «pellet-<material of the wall>».
+inline std::vector<std::string> wall_names(Rig rig) {
+    return rig == Rig::drum ? std::vector<std::string>{"shell", "front", "back"} : std::vector<std::string>{"shell", "floor"};
+}
+
 /// Elastic constants and density of one material.
 struct Material {
     double density = 1000.0;     ///< [kg/m³]
     double shear_modulus = 2e6;  ///< [Pa]
     double poisson_ratio = 0.25;
+    bool operator==(const Material&) const = default;
 };
 
 /// Contact parameters of one pair: pellet–pellet, or pellet–wall by the wall's name or its material.
@@ -24,12 +35,14 @@ struct ContactParameters {
     double restitution = 0.4;
     double sliding_friction = 0.7;
     double rolling_friction = 0.05;
+    bool operator==(const ContactParameters&) const = default;
 };
 
 struct PelletChoice {
     std::string clump_file = "pellet.clump.toml";
     std::uint32_t count = 1000;  ///< 0: from the fill fraction of the rig
     std::string material = "pellet";
+    bool operator==(const PelletChoice&) const = default;
 };
 
 /// Vertical tube: axis z, floor at z = 0.
@@ -40,6 +53,7 @@ struct TubeRig {
     std::string mesh_file;      ///< a user's own shell and floor instead of the maker's
     std::string mesh_unit;
     std::string material = "vessel";
+    bool operator==(const TubeRig&) const = default;
 };
 
 /// Horizontal drum: axis y, centre in the origin, end plates at y = ±length/2. A positive speed turns about +y:
@@ -55,11 +69,13 @@ struct DrumRig {
     std::string mesh_file;
     std::string mesh_unit;
     std::string material = "vessel";
+    bool operator==(const DrumRig&) const = default;
 };
 
 struct Insertion {
     double packing_fraction = 0.20;  ///< of the loose cloud of pellets before they fall
     double fall_speed = 0.0;         ///< [m/s], downward speed at release
+    bool operator==(const Insertion&) const = default;
 };
 
 struct TimeControl {
@@ -68,19 +84,23 @@ struct TimeControl {
     double rest_kinetic_energy = 1e-6;  ///< bed counts as at rest when kinetic energy per pellet < this · m g d
     double spin_up = 1.0;               ///< [s] of rotation before measuring (drum)
     double measure = 1.0;               ///< [s] of rotation measured (drum)
+    bool operator==(const TimeControl&) const = default;
 };
 
 struct Output {
     double frame_interval = 0.01;  ///< [s] between stored frames
     bool paraview = true;
+    std::uint32_t paraview_every = 10;  ///< each n-th stored frame, and the last
     bool pictures = true;
     bool picture_spheres = false;        ///< draw the clump's spheres instead of the true surface
     std::uint32_t picture_width = 1200;  ///< [pixel]
+    bool operator==(const Output&) const = default;
 };
 
 struct Measurement {
     double height_grid = 0.001;    ///< [m], cell of the top-surface grid (tube)
     double velocity_grid = 0.002;  ///< [m], cell of the velocity map (drum)
+    bool operator==(const Measurement&) const = default;
 };
 
 struct Case {
@@ -98,6 +118,7 @@ struct Case {
     Output output;
     Measurement measurement;
     std::string folder;  ///< of the case file; relative paths in it start here
+    bool operator==(const Case&) const = default;
 };
 
 }  // namespace pelletlab

@@ -1,0 +1,127 @@
+#include "io/detail/case_check.hpp"
+
+#include <algorithm>
+
+#include "core/units.hpp"
+#include "io/detail/case_keys.hpp"
+#include "io/detail/toml_text.hpp"
+
+namespace pelletlab::io::detail {
+
+namespace {
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
+    const std::string guess = closest_word(word, candidates);
+    return guess.empty() ? "" : "did you mean '" + guess + "'? ";
+}
+
+std::vector<std::string> defined_materials(const Case& c) {
+    std::vector<std::string> names;
+    for (const auto& [name, ignored] : c.materials) names.push_back(name);
+    return names;
+}
+
+void check_material(const Case& c, const std::string& key, const std::string& name, const CasePlaces& places) {
+    if (c.materials.contains(name)) return;
+    throw bad_input(key + ": the material '" + name + "' is not defined",
+                    suggestion(name, defined_materials(c)) + "add a table [materials." + toml_key(name) + "]", places.of({key}));
+}
+
+/// A row's name is «pellet-» and then «pellet», a wall of the rig or a material.
+void check_contact_name(const Case& c, const std::string& name, const CasePlaces& places) {
+    std::vector<std::string> partners = wall_names(c.rig);
+    partners.emplace_back("pellet");
+    for (const std::string& material : defined_materials(c)) partners.push_back(material);
+    std::vector<std::string> rows;
+    for (const std::string& partner : partners) rows.push_back("pellet-" + partner);
+    if (default_contact(name) != nullptr || std::find(rows.begin(), rows.end(), name) != rows.end()) return;
+    std::string walls;
+    for (const std::string& wall : wall_names(c.rig)) walls += ", '" + wall + "'";
+    throw bad_input("contacts." + toml_key(name) + ": its partner is no wall of the rig and no defined material",
+                    suggestion(name, rows) + "name it pellet-<partner>, the partner 'pellet'" + walls + " or a material",
+                    places.of({"contacts." + toml_key(name)}));
+}
+
+void check_contacts(const Case& c, const CasePlaces& places) {
+    for (const auto& [name, ignored] : c.contacts) check_contact_name(c, name, places);
+    if (!c.contacts.contains("pellet-pellet"))
+        throw bad_input("the contact row pellet-pellet is missing", "add [contacts.pellet-pellet]", places.of({"contacts"}));
+    const std::string& material = wall_material(c);
+    if (c.contacts.contains("pellet-" + material)) return;
+    for (const std::string& wall : wall_names(c.rig)) {
+        if (c.contacts.contains("pellet-" + wall)) continue;
+        throw bad_input("the wall '" + wall + "' has no contact row with the pellets",
+                        "add [contacts." + toml_key("pellet-" + material) + "] for its material or [contacts.pellet-" + wall + "] for this wall",
+                        places.of({rig_name(c.rig) + ".material", "contacts", "rig"}));
+    }
+}
+
+void check_mesh(const std::string& rig, const std::string& mesh_file, const std::string& mesh_unit, const CasePlaces& places) {
+    if (mesh_file.empty() && mesh_unit.empty()) return;
+    if (mesh_unit.empty())
+        throw bad_input(rig + ".mesh_file has no unit: a mesh file does not tell whether it is in mm or m", "add mesh_unit = \"mm\" beside it",
+                        places.of({rig + ".mesh_file"}));
+    try {
+        unit_factor(mesh_unit, dimension::length);
+    } catch (const Error& error) {
+        throw bad_input(rig + ".mesh_unit: " + error.problem(), error.remedy(), places.of({rig + ".mesh_unit"}));
+    }
+}
+
+void check_times(const Case& c, const CasePlaces& places) {
+    if (c.time.step > c.output.frame_interval)
+        throw bad_input("time.step is longer than output.frame_interval", "store frames less often, or shorten the step",
+                        places.of({"time.step", "output.frame_interval"}));
+    if (c.time.step > c.time.settle_limit)
+        throw bad_input("time.step is longer than time.settle_limit", "raise the limit, or shorten the step", places.of({"time.settle_limit", "time.step"}));
+    if (c.rig == Rig::drum && c.output.frame_interval > c.time.measure)
+        throw bad_input("output.frame_interval is longer than time.measure: no frame would be measured", "store frames more often, or measure longer",
+                        places.of({"time.measure", "output.frame_interval"}));
+}
+
+void check_sizes(const Case& c, const CasePlaces& places) {
+    if (c.rig == Rig::tube && c.measurement.height_grid > c.tube.diameter)
+        throw bad_input("measurement.height_grid is larger than the tube's diameter", "choose a finer grid",
+                        places.of({"measurement.height_grid", "tube.diameter"}));
+    if (c.rig == Rig::drum && c.measurement.velocity_grid > c.drum.diameter)
+        throw bad_input("measurement.velocity_grid is larger than the drum's diameter", "choose a finer grid",
+                        places.of({"measurement.velocity_grid", "drum.diameter"}));
+}
+
+}  // namespace
+
+Place CasePlaces::of(const std::vector<std::string>& paths) const {
+    for (const std::string& path : paths)
+        if (const auto found = places_.find(path); found != places_.end()) return found->second;
+    return {file_};
+}
+
+void add_default_materials(Case& c) {
+    for (const std::string& name : {c.pellet.material, wall_material(c)})
+        if (const Material* material = default_material(name)) c.materials.try_emplace(name, *material);
+    for (const std::string& name : {std::string("pellet-pellet"), "pellet-" + wall_material(c)})
+        if (const ContactParameters* contact = default_contact(name)) c.contacts.try_emplace(name, *contact);
+}
+
+void check_case(const Case& c, const CasePlaces& places) {
+    if (c.name.empty()) throw bad_input("name is empty", "give the run a name", places.of({"name"}));
+    if (c.gravity.norm() == 0.0)
+        throw bad_input("gravity is zero: the pellets would never come to rest", "write for instance gravity = [\"0 m/s^2\", \"0 m/s^2\", \"-9.81 m/s^2\"]",
+                        places.of({"gravity"}));
+    if (c.pellet.clump_file.empty())
+        throw bad_input("pellet.clump_file is empty", "name the clump template, made by `pelletlab shape`", places.of({"pellet.clump_file"}));
+    if (c.rig == Rig::tube && c.pellet.count == 0)
+        throw bad_input("pellet.count is 0: only a drum has a fill fraction to take the number from", "state the number of pellets",
+                        places.of({"pellet.count"}));
+    check_material(c, "pellet.material", c.pellet.material, places);
+    check_material(c, rig_name(c.rig) + ".material", wall_material(c), places);
+    check_contacts(c, places);
+    if (c.rig == Rig::drum)
+        check_mesh("drum", c.drum.mesh_file, c.drum.mesh_unit, places);
+    else
+        check_mesh("tube", c.tube.mesh_file, c.tube.mesh_unit, places);
+    check_times(c, places);
+    check_sizes(c, places);
+}
+
+}  // namespace pelletlab::io::detail

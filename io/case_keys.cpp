@@ -1,0 +1,280 @@
+#include <algorithm>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+#include "core/error.hpp"
+#include "io/case_file.hpp"
+#include "io/detail/case_keys.hpp"
+
+namespace pelletlab::io::detail {
+
+namespace {
+
+std::vector<std::string> split(const std::string& text) {
+    std::vector<std::string> segments(1);
+    for (const char c : text) {
+        if (c == '.')
+            segments.emplace_back();
+        else
+            segments.back() += c;
+    }
+    return segments;
+}
+
+template <class T>
+CaseValue to_value(const T& member) {
+    if constexpr (std::is_same_v<T, Rig>)
+        return rig_name(member);
+    else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
+        return static_cast<std::uint64_t>(member);
+    else
+        return member;
+}
+
+template <class T>
+void from_value(T& member, const CaseValue& value) {
+    if constexpr (std::is_same_v<T, Rig>)
+        member = std::get<std::string>(value) == "drum" ? Rig::drum : Rig::tube;
+    else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
+        member = static_cast<T>(std::get<std::uint64_t>(value));
+    else
+        member = std::get<T>(value);
+}
+
+template <class T>
+constexpr KeyKind kind_of() {
+    if constexpr (std::is_same_v<T, double>) return KeyKind::number;
+    if constexpr (std::is_same_v<T, bool>) return KeyKind::flag;
+    if constexpr (std::is_same_v<T, std::string>) return KeyKind::text;
+    if constexpr (std::is_same_v<T, Vec3>) return KeyKind::vector3d;
+    if constexpr (std::is_same_v<T, Rig>) return KeyKind::choice;
+    return KeyKind::whole;
+}
+
+/// `member(case, name)` is the place of the value in the case, const or not.
+template <class Member>
+CaseKey key(const char* path, Member member, const char* doc) {
+    using T = std::remove_cvref_t<decltype(member(std::declval<Case&>(), std::string()))>;
+    CaseKey k;
+    k.path = split(path);
+    k.kind = kind_of<T>();
+    k.doc = doc;
+    k.get = [member](const Case& c, const std::string& name) { return to_value(member(c, name)); };
+    k.set = [member](Case& c, const std::string& name, const CaseValue& value) { from_value(member(c, name), value); };
+    return k;
+}
+
+CaseKey in(Dimension dimension, const char* unit, CaseKey k) {
+    k.dimension = dimension;
+    k.unit = unit;
+    return k;
+}
+
+CaseKey within(Range range, CaseKey k) {
+    k.range = range;
+    return k;
+}
+
+CaseKey one_of(std::vector<std::string> choices, CaseKey k) {
+    k.choices = std::move(choices);
+    return k;
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Range above(double lower) {
+    return {lower, infinity, true, true};
+}
+constexpr Range from(double lower) {
+    return {lower, infinity, false, true};
+}
+constexpr Range from_to(double lower, double upper) {
+    return {lower, upper, false, false};
+}
+constexpr Range above_to(double lower, double upper) {
+    return {lower, upper, true, false};
+}
+constexpr Range between(double lower, double upper) {
+    return {lower, upper, true, true};
+}
+
+// A key's value in a case `c`; `name` is the material or contact that «*» stands for.
+#define PELLETLAB_MEMBER(expression)                \
+    [](auto& c, const std::string& name) -> auto& { \
+        (void)c, (void)name;                        \
+        return expression;                          \
+    }
+
+std::vector<CaseKey> make_keys() {
+    using namespace dimension;
+    std::vector<CaseKey> keys;
+    const auto add = [&keys](CaseKey k) { keys.push_back(std::move(k)); };
+
+    add(one_of({"tube", "drum"}, key("rig", PELLETLAB_MEMBER(c.rig), "Apparatus of the run.")));
+    add(key("name", PELLETLAB_MEMBER(c.name), "Name of the run in results and pictures."));
+    // TOML's whole numbers end at 2^63 − 1; the limit below is the largest double under it, so a seed can always be written back.
+    add(within(from_to(0, 9223372036854774784.0), key("seed", PELLETLAB_MEMBER(c.seed), "Seed of all random numbers; the same seed gives the same bits.")));
+    add(in(acceleration, "m/s^2", key("gravity", PELLETLAB_MEMBER(c.gravity), "Gravity in world axes (x, y, z); z points up.")));
+
+    add(key("pellet.clump_file", PELLETLAB_MEMBER(c.pellet.clump_file),
+            "Clump template, made by `pelletlab shape`; a relative path starts at the folder of the case file."));
+    add(within(from_to(0, 100e6),
+               key("pellet.count", PELLETLAB_MEMBER(c.pellet.count), "Number of pellets; 0 in a drum: as many as drum.fill_fraction asks for.")));
+    add(key("pellet.material", PELLETLAB_MEMBER(c.pellet.material), "Material of the pellets: a table [materials.<name>]."));
+
+    add(in(density, "kg/m^3",
+           within(above(0), key("materials.*.density", PELLETLAB_MEMBER(c.materials.at(name).density), "Density; the pellet's decides its mass."))));
+    add(in(pressure, "MPa",
+           within(above(0), key("materials.*.shear_modulus", PELLETLAB_MEMBER(c.materials.at(name).shear_modulus),
+                                "Shear modulus; softer pellets allow longer time steps and overlap more."))));
+    add(within(between(-1, 0.5), key("materials.*.poisson_ratio", PELLETLAB_MEMBER(c.materials.at(name).poisson_ratio), "Poisson's ratio.")));
+
+    add(within(above_to(0, 1),
+               key("contacts.*.restitution", PELLETLAB_MEMBER(c.contacts.at(name).restitution), "Coefficient of restitution of a normal impact.")));
+    add(within(from(0),
+               key("contacts.*.sliding_friction", PELLETLAB_MEMBER(c.contacts.at(name).sliding_friction), "Coulomb's coefficient of sliding friction.")));
+    add(within(from(0), key("contacts.*.rolling_friction", PELLETLAB_MEMBER(c.contacts.at(name).rolling_friction),
+                            "Coefficient of the constant-torque rolling friction.")));
+
+    add(in(length, "mm", within(above(0), key("tube.diameter", PELLETLAB_MEMBER(c.tube.diameter), "Inner diameter."))));
+    add(in(length, "mm", within(from(0), key("tube.height", PELLETLAB_MEMBER(c.tube.height), "Height; 0: high enough for the pellets to be inserted."))));
+    add(within(from_to(8, 4096), key("tube.facets", PELLETLAB_MEMBER(c.tube.facets), "Flat facets of the round shell.")));
+    add(key("tube.mesh_file", PELLETLAB_MEMBER(c.tube.mesh_file), "Mesh of shell and floor to use instead of the round tube; empty: none."));
+    add(key("tube.mesh_unit", PELLETLAB_MEMBER(c.tube.mesh_unit), "Length unit of mesh_file (an STL file does not tell): mm, m, in, …"));
+    add(key("tube.material", PELLETLAB_MEMBER(c.tube.material), "Material of shell and floor: a table [materials.<name>]."));
+
+    add(in(length, "mm", within(above(0), key("drum.diameter", PELLETLAB_MEMBER(c.drum.diameter), "Inner diameter."))));
+    add(in(length, "mm", within(above(0), key("drum.length", PELLETLAB_MEMBER(c.drum.length), "Inner length between the end plates."))));
+    add(in(rotation_speed, "rpm",
+           key("drum.speed", PELLETLAB_MEMBER(c.drum.speed), "Speed of rotation; positive turns about +y: the bed climbs on the left, at x < 0.")));
+    add(within(above_to(0, 1),
+               key("drum.fill_fraction", PELLETLAB_MEMBER(c.drum.fill_fraction), "Bulk volume of the bed / volume of the drum; used when pellet.count is 0.")));
+    add(within(above_to(0, 1), key("drum.bulk_packing_fraction", PELLETLAB_MEMBER(c.drum.bulk_packing_fraction),
+                                   "Packing fraction that turns bulk volume into a number of pellets.")));
+    add(within(from_to(8, 4096), key("drum.facets", PELLETLAB_MEMBER(c.drum.facets), "Flat facets of the round shell.")));
+    add(key("drum.end_plates_rotate", PELLETLAB_MEMBER(c.drum.end_plates_rotate), "End plates turn with the shell, or stand still."));
+    add(key("drum.mesh_file", PELLETLAB_MEMBER(c.drum.mesh_file), "Mesh to use instead of the round drum; empty: none."));
+    add(key("drum.mesh_unit", PELLETLAB_MEMBER(c.drum.mesh_unit), "Length unit of mesh_file (an STL file does not tell): mm, m, in, …"));
+    add(key("drum.material", PELLETLAB_MEMBER(c.drum.material), "Material of shell and end plates: a table [materials.<name>]."));
+
+    add(within(above_to(0, 0.5), key("insertion.packing_fraction", PELLETLAB_MEMBER(c.insertion.packing_fraction),
+                                     "Packing fraction of the loose cloud of pellets before they fall.")));
+    add(in(velocity, "m/s",
+           within(from(0), key("insertion.fall_speed", PELLETLAB_MEMBER(c.insertion.fall_speed), "Downward speed of the pellets at release."))));
+
+    add(in(time, "s", within(above_to(0, 0.1), key("time.step", PELLETLAB_MEMBER(c.time.step), "Time step."))));
+    add(in(
+        time, "s",
+        within(above(0), key("time.settle_limit", PELLETLAB_MEMBER(c.time.settle_limit), "A bed that is not at rest by then gets the status «not at rest»."))));
+    add(within(above(0), key("time.rest_kinetic_energy", PELLETLAB_MEMBER(c.time.rest_kinetic_energy),
+                             "A bed is at rest when its kinetic energy per pellet is below this · m·g·d of a pellet.")));
+    add(in(time, "s", within(from(0), key("time.spin_up", PELLETLAB_MEMBER(c.time.spin_up), "Rotation before measuring (drum)."))));
+    add(in(time, "s", within(above(0), key("time.measure", PELLETLAB_MEMBER(c.time.measure), "Rotation that is measured (drum)."))));
+
+    add(in(time, "s", within(above(0), key("output.frame_interval", PELLETLAB_MEMBER(c.output.frame_interval), "Time between stored frames."))));
+    add(key("output.paraview", PELLETLAB_MEMBER(c.output.paraview), "Write ParaView files."));
+    add(within(from_to(1, 1e6),
+               key("output.paraview_every", PELLETLAB_MEMBER(c.output.paraview_every), "ParaView gets each n-th stored frame, and the last.")));
+    add(key("output.pictures", PELLETLAB_MEMBER(c.output.pictures), "Write PNG pictures."));
+    add(key("output.picture_spheres", PELLETLAB_MEMBER(c.output.picture_spheres), "Draw the spheres of the clump instead of the pellet's true surface."));
+    add(within(from_to(16, 16384), key("output.picture_width", PELLETLAB_MEMBER(c.output.picture_width), "Width of the pictures in pixels.")));
+
+    add(in(
+        length, "mm",
+        within(above(0), key("measurement.height_grid", PELLETLAB_MEMBER(c.measurement.height_grid), "Cell of the grid over the bed's top surface (tube)."))));
+    add(in(length, "mm",
+           within(above(0), key("measurement.velocity_grid", PELLETLAB_MEMBER(c.measurement.velocity_grid), "Cell of the velocity map (drum)."))));
+    return keys;
+}
+
+#undef PELLETLAB_MEMBER
+
+std::vector<CaseSection> make_sections() {
+    return {
+        {{}, "The run."},
+        {{"pellet"}, "Which pellets, and how many."},
+        {{"materials", "*"},
+         "Elastic constants and density of a material. `pellet` and `vessel` have the defaults of Marigo & Stitt 2015, Table 1 (Perspex with "
+         "ν = 0.25); a material of another name states all its keys."},
+        {{"contacts", "*"},
+         "Contact parameters of `pellet-pellet`, and of pellets with a wall: `pellet-<wall name>`, else `pellet-<material of the wall>`. "
+         "`pellet-pellet` and `pellet-vessel` have the defaults of run 12 in Table 4 of the same study; other rows state all their keys."},
+        {{"tube"}, "Vertical tube: axis z, floor at z = 0."},
+        {{"drum"}, "Horizontal drum: axis y, centre in the origin."},
+        {{"insertion"}, "How pellets come into the rig."},
+        {{"time"}, "Time step and phases of the run."},
+        {{"output"}, "What a run writes."},
+        {{"measurement"}, "Grids of the measurement operators."},
+    };
+}
+
+}  // namespace
+
+const std::vector<CaseKey>& case_keys() {
+    static const std::vector<CaseKey> keys = make_keys();
+    return keys;
+}
+
+const std::vector<CaseSection>& case_sections() {
+    static const std::vector<CaseSection> sections = make_sections();
+    return sections;
+}
+
+std::vector<const CaseKey*> keys_of(const CaseSection& section) {
+    std::vector<const CaseKey*> keys;
+    for (const CaseKey& k : case_keys())
+        if (k.path.size() == section.path.size() + 1 && std::equal(section.path.begin(), section.path.end(), k.path.begin())) keys.push_back(&k);
+    return keys;
+}
+
+std::string path_text(const std::vector<std::string>& path) {
+    std::string text;
+    for (const std::string& segment : path) text += (text.empty() ? "" : ".") + (segment == "*" ? "<name>" : segment);
+    return text;
+}
+
+bool is_idle_section(const CaseSection& section, Rig rig) {
+    return !section.path.empty() && section.path[0] == rig_name(rig == Rig::tube ? Rig::drum : Rig::tube);
+}
+
+std::vector<std::string> names_in(const Case& c, const CaseSection& section) {
+    std::vector<std::string> names;
+    if (section.path.size() < 2) return {""};
+    if (section.path[0] == "materials")
+        for (const auto& [name, ignored] : c.materials) names.push_back(name);
+    else
+        for (const auto& [name, ignored] : c.contacts) names.push_back(name);
+    return names;
+}
+
+const Material* default_material(const std::string& name) {
+    static const Material pellet{1800.0, 2e6, 0.25};
+    static const Material vessel{1000.0, 3e9, 0.25};
+    return name == "pellet" ? &pellet : name == "vessel" ? &vessel : nullptr;
+}
+
+const ContactParameters* default_contact(const std::string& name) {
+    static const ContactParameters pellet_pellet{0.4, 0.7, 0.07};
+    static const ContactParameters pellet_vessel{0.4, 0.7, 0.05};
+    return name == "pellet-pellet" ? &pellet_pellet : name == "pellet-vessel" ? &pellet_vessel : nullptr;
+}
+
+const std::string& wall_material(const Case& c) {
+    return c.rig == Rig::drum ? c.drum.material : c.tube.material;
+}
+
+}  // namespace pelletlab::io::detail
+
+namespace pelletlab::io {
+
+Case default_case(Rig rig) {
+    Case c;
+    c.rig = rig;
+    c.name = rig_name(rig);
+    if (rig == Rig::drum) c.pellet.count = 0;
+    for (const char* name : {"pellet", "vessel"}) c.materials[name] = *detail::default_material(name);
+    for (const char* name : {"pellet-pellet", "pellet-vessel"}) c.contacts[name] = *detail::default_contact(name);
+    return c;
+}
+
+}  // namespace pelletlab::io
