@@ -9,23 +9,36 @@
 
 namespace pelletlab::meshes {
 
-/// One way of computing the distance: the exact mesh query, or the OpenVDB grid.
+/// φ and ∇φ at one point.
+struct DistanceSample {
+    double value = 0.0;            ///< [m]
+    Vec3 gradient = Vec3::Zero();  ///< unit length where φ is smooth
+};
+
+/// One way of computing the distance: the exact mesh query, or the OpenVDB grid. All queries are const and may run side by side.
 class SignedDistance {
 public:
     virtual ~SignedDistance() = default;
     virtual double value(const Vec3& p) const = 0;   ///< φ(p) [m]
     virtual Vec3 gradient(const Vec3& p) const = 0;  ///< ∇φ(p), unit length where φ is smooth
     virtual double error_bound() const = 0;          ///< [m], |value − true distance to the mesh| ≤ this
+    /// Both at once, at the price of one.
+    virtual DistanceSample sample(const Vec3& p) const { return {value(p), gradient(p)}; }
     /// φ at all points, in parallel.
     std::vector<double> values(std::span<const Vec3> points) const;
 };
 
-/// Exact distance to the triangles with the sign from the angle-weighted pseudonormal (Bærentzen & Aanæs 2005; key baerentzen2005): CGAL AABB tree.
-/// Needs a closed, consistently oriented mesh.
+/// Exact distance to the triangles with the sign from the angle-weighted pseudonormal (Bærentzen & Aanæs 2005; key baerentzen2005): nearest triangle
+/// from a tree of boxes. On the surface the gradient is the pseudonormal; where several points are nearest it belongs to one of them.
+/// Needs a closed, consistently oriented mesh: throws Error(bad_input) for a mesh that require_closed_body would have to change.
 std::unique_ptr<SignedDistance> exact_signed_distance(const TriangleMesh& mesh);
 
 /// OpenVDB narrow-band level set, filled to the whole interior, of the given voxel size; trilinear between voxels. Fast, for searching.
-/// Its error bound is measured against the exact query when it is built.
+/// Its error bound is measured against the exact query when it is built: 1.25 × the largest error over 20,000 random points of the grid's box and over the
+/// middles of the 4096 cells where the field bends most. It holds inside the box of the grid, which is the body's bounding box and a rim of
+/// max(0.25 · its smallest edge, 3 voxels). Beyond the box the value is that of the nearest point of the box plus the way to it, an upper bound of the
+/// distance. Throws Error(bad_input) for a voxel that is not positive, wider than a quarter of the body's smallest extent, or so small that more than 512
+/// million are needed.
 std::unique_ptr<SignedDistance> grid_signed_distance(const TriangleMesh& mesh, double voxel_size);
 
 }  // namespace pelletlab::meshes
