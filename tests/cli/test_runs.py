@@ -1,0 +1,201 @@
+"""Runs: what they write, what they refuse, and what an interrupted one leaves behind."""
+
+import json
+import os
+import re
+import resource
+import shutil
+import signal
+import time
+
+import bodies
+from harness import BAD_INPUT, INTERRUPTED, LONG, NUMERICAL, SMALL, SMALL_DRUM, SOURCE, PelletlabTest
+
+RESULTS = ("run.h5", "observables.json", "stage.json")
+
+
+def strict_json(text):
+    """JSON as other programs read it: NaN and Infinity are no JSON."""
+    return json.loads(text, parse_constant=lambda word: (_ for _ in ()).throw(ValueError(f"{word} in JSON")))
+
+
+class Runs(PelletlabTest):
+    def state_hash(self, result):
+        found = re.search(r"state hash ([0-9a-f]{16})", result.out)
+        self.assertTrue(found, result)
+        return found.group(1)
+
+    def test_fill_writes_every_result(self):
+        result = self.succeeds("fill", self.new_case(), *SMALL[:-4], "-o", "out/tube", "--set", "output.picture_width=64")
+        for name in (*RESULTS, "case.resolved.toml", "tube.png", "paraview/bodies.pvd", "paraview/spheres.pvd", "paraview/walls.pvd"):
+            self.assertTrue(os.path.getsize(self.path("out/tube", name)) > 0, name)
+        with open(self.path("out/tube/run.h5"), "rb") as stream:
+            self.assertEqual(stream.read(8), b"\x89HDF\r\n\x1a\n")
+        values = {one["name"]: one for one in strict_json(self.read("out/tube/observables.json"))["values"]}
+        self.assertTrue(any("height" in name for name in values), values.keys())
+        self.assertTrue(any("packing_fraction" in name for name in values), values.keys())
+        self.assertTrue(all(one["unit"] is not None and one["method"] for one in values.values()))
+        self.assertNotIn(".part", " ".join(self.everything()), result)
+
+    def test_drum_writes_every_result(self):
+        self.succeeds("drum", self.new_case("drum"), *SMALL_DRUM[:-4], "-o", "out/drum", "--set", "output.picture_width=64")
+        for name in (*RESULTS, "case.resolved.toml", "drum.png", "velocity-map.png", "paraview/walls.pvd"):
+            self.assertTrue(os.path.getsize(self.path("out/drum", name)) > 0, name)
+        text = self.read("out/drum/observables.json")
+        strict_json(text)
+        self.assertIn("angle", text)
+
+    def test_results_carry_version_commit_seed_and_hashes(self):
+        self.succeeds("fill", self.new_case(), *SMALL, "-o", "out", "--set", "seed=42")
+        version, commit = re.match(r"pelletlab (\S+) \((\S+)\)", self.succeeds("--version").out).groups()
+        text = self.read("out/observables.json")
+        for part in (version, commit, "42"):
+            self.assertIn(part, text)
+        self.assertRegex(text, r'"[0-9a-f]{64}"')
+        self.assertEqual(self.read("out/case.resolved.toml").rstrip("\n"),
+                         self.succeeds("case", "check", "out/case.resolved.toml").out.rstrip("\n"))
+
+    def test_same_bits_for_one_and_two_threads(self):
+        file = self.new_case()
+        setting = SMALL + ["--set", "pellet.count=40", "--set", "time.settle_limit=0.05 s"]
+        hashes = {self.state_hash(self.succeeds("--threads", n, "fill", file, *setting, "-o", f"out-{n}")) for n in ("1", "2")}
+        self.assertEqual(len(hashes), 1)
+        self.assertEqual(strict_json(self.read("out-1/observables.json"))["values"], strict_json(self.read("out-2/observables.json"))["values"])
+
+    def test_another_seed_gives_another_bed(self):
+        file = self.new_case()
+        hashes = {self.state_hash(self.succeeds("fill", file, *SMALL, "--set", f"seed={n}", "-o", f"out-{n}")) for n in (1, 2)}
+        self.assertEqual(len(hashes), 2)
+
+    def test_nothing_to_do_when_nothing_changed(self):
+        file = self.new_case()
+        self.succeeds("fill", file, *SMALL, "-o", "out")
+        before = {name: os.stat(self.path("out", name)).st_mtime_ns for name in RESULTS}
+        self.assertIn("up to date", self.succeeds("fill", file, *SMALL, "-o", "out").out)
+        self.assertEqual(before, {name: os.stat(self.path("out", name)).st_mtime_ns for name in RESULTS})
+        self.assertNotIn("up to date", self.succeeds("fill", file, *SMALL, "-o", "out", "--force").out)
+        self.assertNotIn("up to date", self.succeeds("fill", file, *SMALL, "-o", "out", "--set", "seed=5").out)
+
+    def test_examples_run_in_small(self):
+        for name in sorted(os.listdir(os.path.join(SOURCE, "examples"))):
+            if not name.endswith(".toml"):
+                continue
+            with self.subTest(example=name):
+                self.take_clump()
+                shutil.copy(os.path.join(SOURCE, "examples", name), self.path(name))
+                drum = re.search(r'(?m)^rig\s*=\s*"drum"', self.read(name)) is not None
+                self.succeeds("drum" if drum else "fill", name, *(SMALL_DRUM if drum else SMALL), "--set", "pellet.clump_file=pellet.clump.toml",
+                              "-o", "out-" + name)
+
+
+class RefusedRuns(PelletlabTest):
+    def test_pellet_larger_than_its_tube(self):
+        self.fails(BAD_INPUT, "fill", self.new_case(), *SMALL, "-o", "out", "--set", "tube.diameter=2 mm", says="tube")
+
+    def test_pellet_larger_than_its_drum(self):
+        self.fails(BAD_INPUT, "drum", self.new_case("drum"), *SMALL_DRUM, "-o", "out", "--set", "drum.length=1 mm", says="drum")
+
+    def test_more_pellets_than_fit(self):
+        self.fails(BAD_INPUT, "fill", self.new_case(), *SMALL, "-o", "out", "--set", "pellet.count=5000", "--set", "tube.height=30 mm", says="fit")
+
+    def test_more_pellets_than_fit_into_the_drum(self):
+        self.fails(BAD_INPUT, "drum", self.new_case("drum"), *SMALL_DRUM, "-o", "out", "--set", "pellet.count=50000", says="fit")
+
+    def test_clump_that_is_missing_broken_or_of_another_mesh(self):
+        file = self.new_case()
+        self.fails(BAD_INPUT, "fill", file, "-o", "out", "--set", "pellet.clump_file=nowhere.toml", says=["nowhere.toml", "pelletlab shape"])
+        self.write("broken.clump.toml", self.read("pellet.clump.toml")[:200])
+        self.fails(BAD_INPUT, "fill", file, "-o", "out", "--set", "pellet.clump_file=broken.clump.toml", says="broken.clump.toml")
+        self.write("text.clump.toml", "Dear Ann\n")
+        self.fails(BAD_INPUT, "fill", file, "-o", "out", "--set", "pellet.clump_file=text.clump.toml", says="text.clump.toml")
+        bodies.write_binary_stl(self.path("pellet.stl"), bodies.box())
+        self.fails(BAD_INPUT, "fill", file, *SMALL, "-o", "out", says=["pellet.stl", "changed"])
+        os.remove(self.path("pellet.stl"))
+        self.fails(BAD_INPUT, "fill", file, *SMALL, "-o", "out", says="pellet.stl")
+
+    def test_output_folder_that_cannot_be_written(self):
+        file = self.new_case()
+        self.write("a-file", "x")
+        self.fails(BAD_INPUT, "fill", file, *SMALL, "-o", "a-file/out", says="a-file")
+        self.fails(BAD_INPUT, "fill", file, *SMALL, "-o", "a-file", says="a-file")
+        self.fails(BAD_INPUT, "fill", file, *SMALL, "-o", "/proc/pelletlab", says="/proc/pelletlab")
+
+    def test_full_disk_leaves_no_half_written_result(self):
+        """A limit on the size of files stands for the full disk: writing fails in the middle of the trajectory."""
+
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
+
+        result = self.run_program("fill", self.new_case(), *SMALL, "--set", "pellet.count=60", "-o", "out", preexec_fn=limit)
+        self.assertIn(result.code, (BAD_INPUT, NUMERICAL), result)
+        self.assertIn("error:", result.err, result)
+        self.assertNotIn("terminate", result.err, result)
+        left = [name for name in self.everything() if name.endswith(".part") or os.path.basename(name) in RESULTS]
+        self.assertEqual(left, [], result)
+
+    def test_unstable_time_step_is_a_numerical_failure(self):
+        """A step far above the stable one throws pellets out of the tube: said with time and cause, and no result is written."""
+        result = self.run_program("fill", self.new_case(), *SMALL, "--set", "time.step=0.005 s", "--set", "pellet.count=60",
+                                  "--set", "time.settle_limit=2 s", "--set", "output.frame_interval=0.05 s", "-o", "out")
+        self.assertIn(result.code, (BAD_INPUT, NUMERICAL), result)
+        self.assertIn("step", result.err.lower(), result)
+        self.assertEqual([name for name in self.everything() if name.endswith(".part") or os.path.basename(name) in RESULTS], [], result)
+
+
+class InterruptedRuns(PelletlabTest):
+    def part_file(self):
+        return any(name.endswith(".part") for name in self.everything())
+
+    def leaves_nothing(self, result):
+        self.assertEqual(result.code, INTERRUPTED, result)
+        self.assertIn("interrupt", result.err.lower(), result)
+        left = [name for name in self.everything() if name.endswith(".part") or os.path.basename(name) in RESULTS]
+        self.assertEqual(left, [], result)
+
+    def test_ctrl_c_in_the_middle_of_a_run(self):
+        process = self.start("fill", self.new_case(), *LONG, "-o", "out")
+        self.leaves_nothing(self.interrupt(process, self.part_file))
+
+    def test_sigterm_in_the_middle_of_a_run(self):
+        process = self.start("drum", self.new_case("drum"), *LONG, "-o", "out")
+        self.leaves_nothing(self.interrupt(process, self.part_file, signal.SIGTERM))
+
+    def test_ctrl_c_in_the_middle_of_a_fit(self):
+        bodies.write_binary_stl(self.path("pellet.stl"), bodies.cylinder(facets=96))
+        begin = time.monotonic()
+        process = self.start("shape", "pellet.stl", "--unit", "mm", "-n", "1500", "-o", "pellet.clump.toml")
+        result = self.interrupt(process, lambda: time.monotonic() - begin > 1.0)
+        self.assertEqual(result.code, INTERRUPTED, result)
+        self.assertEqual(self.everything(), ["pellet.stl"], result)
+
+    def test_next_run_clears_what_a_killed_one_left(self):
+        file = self.new_case()
+        process = self.start("fill", file, *LONG, "-o", "out")
+        self.interrupt(process, self.part_file, signal.SIGKILL)
+        self.assertTrue(self.part_file(), "the killed run should have left a .part file, else this test shows nothing")
+        self.assertFalse(os.path.exists(self.path("out/stage.json")))
+        self.succeeds("fill", file, *SMALL, "-o", "out")
+        self.assertFalse(self.part_file(), self.everything())
+
+    def test_interrupted_run_over_an_older_result_leaves_no_mixture(self):
+        """Either the old result stays whole, or nothing is left of it: never the new case beside the old numbers."""
+        file = self.new_case()
+        self.succeeds("fill", file, *SMALL, "-o", "out")
+        old = {name: self.read("out", name) for name in ("case.resolved.toml", "observables.json")}
+        process = self.start("fill", file, *LONG, "-o", "out")
+        result = self.interrupt(process, self.part_file)
+        self.assertEqual(result.code, INTERRUPTED, result)
+        if os.path.exists(self.path("out/observables.json")):
+            self.assertEqual(self.read("out", "case.resolved.toml"), old["case.resolved.toml"], "new case beside old numbers")
+            self.assertEqual(self.read("out", "observables.json"), old["observables.json"])
+
+    def test_run_leaves_files_of_others_alone(self):
+        """The output folder may hold other things: a user's own .part file is not the program's to delete."""
+        file = self.new_case()
+        os.makedirs(self.path("out/my-downloads"))
+        self.write("out/my-downloads/film.mkv.part", "mine")
+        self.write("out/notes.txt", "mine")
+        self.succeeds("fill", file, *SMALL, "-o", "out")
+        self.assertEqual(self.read("out/my-downloads/film.mkv.part"), "mine")
+        self.assertEqual(self.read("out/notes.txt"), "mine")
