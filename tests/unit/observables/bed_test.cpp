@@ -1,0 +1,127 @@
+#include "observables/bed.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "tests/unit/observables/synthetic.hpp"
+
+using namespace pelletlab;
+using namespace pelletlab::observables;
+using namespace pelletlab::synthetic;
+
+namespace {
+
+double value_of(const Observables& observables, const std::string& name) {
+    for (const Observable& o : observables.values)
+        if (o.name == name) return o.value;
+    ADD_FAILURE() << "no observable " << name;
+    return not_known;
+}
+
+bool has(const Observables& observables, const std::string& name) {
+    for (const Observable& o : observables.values)
+        if (o.name == name) return true;
+    return false;
+}
+
+}  // namespace
+
+TEST(TubeBed, BrickWallHasTheHeightAndPackingOfABrickWall) {
+    // Boxes 2 × 2 × 1 mm laid side by side without gaps, five layers, over more than the tube: the surface is the plane z = 5 mm.
+    const PelletShape brick = box_pellet(1e-3, 0.5e-3);
+    Frame frame;
+    for (int layer = 0; layer < 5; ++layer)
+        for (int i = -12; i <= 12; ++i)
+            for (int j = -12; j <= 12; ++j) add_body(frame, {i * 2e-3, j * 2e-3, (layer + 0.5) * 1e-3});
+    const Trajectory trajectory = trajectory_of(brick, {frame});
+    const Observables bed = measure_tube_bed(trajectory, {20e-3, 0.0, 0.7e-3});
+    // Exact geometry: rounding only. Bricks count by their centre, so those inside fill the circle's area to the share of one ring of bricks.
+    EXPECT_NEAR(value_of(bed, "bed_height_grid"), 5.0, 1e-9);
+    EXPECT_NEAR(value_of(bed, "bed_height_h95"), 5.0, 1e-9);
+    EXPECT_NEAR(value_of(bed, "bed_height_h100"), 5.0, 1e-9);
+    EXPECT_NEAR(value_of(bed, "bed_height_mass"), 5.0, 1e-9);
+    EXPECT_NEAR(value_of(bed, "mean_centroid_height"), 2.5, 1e-9);
+    EXPECT_NEAR(value_of(bed, "mean_axis_alignment"), 1.0, 1e-12);
+    const double counted = value_of(bed, "pellets_counted");
+    EXPECT_NEAR(value_of(bed, "packing_fraction_grid"), counted * 4e-9 / (pi * 400e-6 * 5e-3), 1e-9);
+    EXPECT_NEAR(value_of(bed, "packing_fraction_grid"), 1.0, 0.03);
+    // Slices of bricks: full below the surface, empty above it. 0.23 mm slices cut each brick of 1 mm into few: the points leave 10 % of noise.
+    const double packing = value_of(bed, "packing_fraction_grid");
+    const Profile& axial = bed.profiles[0];
+    for (std::size_t k = 0; k < axial.axis.size(); ++k) {
+        if (std::abs(axial.axis[k] - 5.0) < 0.2) continue;
+        EXPECT_NEAR(axial.value[k], axial.axis[k] < 5.0 ? packing : 0.0, 0.1) << axial.axis[k] << " mm";
+    }
+}
+
+TEST(TubeBed, FloorShiftsEveryHeight) {
+    const PelletShape pellet = sphere_pellet(1e-3);
+    Frame frame;
+    add_body(frame, {0.0, 0.0, 0.101});
+    add_body(frame, {0.0, 2e-3, 0.101});
+    const Observables bed = measure_tube_bed(trajectory_of(pellet, {frame}), {10e-3, 0.1, 1e-3});
+    EXPECT_NEAR(value_of(bed, "bed_height_h100"), 2.0, 1e-9);
+    EXPECT_NEAR(value_of(bed, "bed_height_mass"), 2.0, 1e-9);
+}
+
+TEST(TubeBed, TopSurfaceOfOneSphereIsItsCap) {
+    // Mean over the disc of radius a of r + √(r² − ρ²) with a = r − margin … here the sphere is as wide as the measured disc: mean cap height 2r/3, so
+    // the mean height is 5r/3. The grid of r/100 leaves an error of order 1/100² of r, dominated by the rim's square root: 1e-3 r.
+    const double r = 5e-3;
+    Frame frame;
+    add_body(frame, {0.0, 0.0, r});
+    const Observables bed = measure_tube_bed(trajectory_of(sphere_pellet(r), {frame}), {2.0 * r, 0.0, r / 100.0});
+    EXPECT_NEAR(value_of(bed, "bed_height_grid"), 1e3 * r * 5.0 / 3.0, 1e3 * r * 3e-3);
+}
+
+TEST(TubeBed, TrueSurfaceGoesBeforeSpheres) {
+    PelletShape pellet = box_pellet(2e-3, 1e-3);
+    pellet.rigid.spheres = {{Vec3::Zero(), 4e-3}};
+    Frame frame;
+    for (int i = -5; i <= 5; ++i)
+        for (int j = -5; j <= 5; ++j) add_body(frame, {i * 4e-3, j * 4e-3, 1e-3});
+    const Observables bed = measure_tube_bed(trajectory_of(pellet, {frame}), {15e-3, 0.0, 1e-3});
+    EXPECT_NEAR(value_of(bed, "bed_height_grid"), 2.0, 1e-9);
+    EXPECT_NEAR(value_of(bed, "bed_height_h95"), 2.0, 1e-9);
+}
+
+TEST(TubeBed, RandomOrientationsAverageOneHalf) {
+    // |cos θ| is uniform on [0, 1]: mean 0.5, standard error 1/√(12 · 4000) = 0.0046; four of them are allowed.
+    Frame frame;
+    RandomStream random(3, 0);
+    for (int i = 0; i < 4000; ++i) {
+        const double rho = 18e-3 * std::sqrt(random.uniform()), phi = random.uniform(0.0, 2.0 * pi);
+        add_body(frame, {rho * std::cos(phi), rho * std::sin(phi), random.uniform(0.0, 50e-3)}, random.rotation());
+    }
+    const Observables bed = measure_tube_bed(trajectory_of(box_pellet(1e-3, 0.5e-3), {frame}), {20e-3, 0.0, 1e-3});
+    EXPECT_NEAR(value_of(bed, "mean_axis_alignment"), 0.5, 4 * 0.0046);
+    // Centroids uniform over 50 mm: h_mass = 2·25 mm ± 2·50/√(12·4000) = 0.46 mm; 95th percentile 47.5 mm + half height 0.5 mm, ± 50·√(.95·.05/4000) = 0.17 mm.
+    EXPECT_NEAR(value_of(bed, "bed_height_mass"), 50.0, 4 * 0.46);
+    EXPECT_NEAR(value_of(bed, "bed_height_h95"), 48.0, 4 * 0.17);
+    // The same volume in 60 % of h95: 0.6 · 4000 · 4 mm³ · (48/50) on average, ± √(0.58·0.42·4000) pellets = 1.4 %.
+    const double core = 4000 * 4.0 * (0.6 * value_of(bed, "bed_height_h95") / 50.0) / (pi * 400.0 * 0.6 * value_of(bed, "bed_height_h95"));
+    EXPECT_NEAR(value_of(bed, "packing_fraction_core"), core, 4 * 0.014 * core);
+}
+
+TEST(TubeBed, PelletWithoutAxisReportsNoAlignment) {
+    Frame frame;
+    add_body(frame, {0.0, 0.0, 1e-3});
+    EXPECT_FALSE(has(measure_tube_bed(trajectory_of(sphere_pellet(1e-3), {frame}), {10e-3, 0.0, 1e-3}), "mean_axis_alignment"));
+}
+
+TEST(TubeBed, PelletsOutsideAreNotCounted) {
+    Frame frame;
+    add_body(frame, {0.0, 0.0, 1e-3});
+    add_body(frame, {11e-3, 0.0, 1e-3});
+    add_body(frame, {0.0, 0.0, -1e-3});
+    EXPECT_EQ(value_of(measure_tube_bed(trajectory_of(sphere_pellet(1e-3), {frame}), {10e-3, 0.0, 1e-3}), "pellets_counted"), 1.0);
+}
+
+TEST(TubeBed, RefusesWhatItCannotMeasure) {
+    Frame frame;
+    add_body(frame, {0.0, 0.0, -1.0});
+    const Trajectory outside = trajectory_of(sphere_pellet(1e-3), {frame});
+    EXPECT_THROW(measure_tube_bed(outside, {10e-3, 0.0, 1e-3}), Error) << "no pellet inside";
+    EXPECT_THROW(measure_tube_bed(outside, {0.0, 0.0, 1e-3}), Error) << "no radius";
+    EXPECT_THROW(measure_tube_bed(Trajectory{}, {10e-3, 0.0, 1e-3}), Error) << "no frame";
+}
