@@ -1,0 +1,340 @@
+#include "io/clump_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "core/observables.hpp"
+#include "core/units.hpp"
+#include "io/detail/toml_text.hpp"
+#include "io/files.hpp"
+
+namespace pelletlab::io {
+
+namespace {
+
+using namespace detail;
+
+constexpr const char* format_name = "pelletlab-clump";
+constexpr std::int64_t format_version = 1;
+constexpr const char* not_known_text = "not known";
+
+// ---- writing ----------------------------------------------------------------------------------------------------------------
+
+std::string mass_source_name(MassSource source) {
+    switch (source) {
+        case MassSource::target_mesh:
+            return "target_mesh";
+        case MassSource::union_of_spheres:
+            return "union_of_spheres";
+        case MassSource::density_matched_union:
+            break;
+    }
+    return "density_matched_union";
+}
+
+std::string quantity(double value, const char* unit) {
+    return toml_string(std::isfinite(value) ? format_quantity(value, unit) : not_known_text);
+}
+
+std::string plain(double value) {
+    return std::isfinite(value) ? format_quantity(value, "") : toml_string(not_known_text);
+}
+
+std::string quantities(const Vec3& v, const char* unit) {
+    return "[" + quantity(v[0], unit) + ", " + quantity(v[1], unit) + ", " + quantity(v[2], unit) + "]";
+}
+
+std::string distances_text(const char* name, const DistanceFigures& d) {
+    return std::string(name) + " = { mean = " + quantity(d.mean, "mm") + ", rms = " + quantity(d.rms, "mm") + ", max = " + quantity(d.max, "mm") +
+           ", p99 = " + quantity(d.p99, "mm") + " }\n";
+}
+
+std::string rounded(double value, const char* format) {
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, format, value);
+    return buffer;
+}
+
+/// A comment for people; nothing reads it back.
+std::string header_text(const ClumpTemplate& clump) {
+    const FitQuality& q = clump.quality;
+    std::string text = "# Clump template of pelletlab: " + std::to_string(clump.rigid.spheres.size()) + " spheres, bounding radius " +
+                       rounded(clump.rigid.bounding_radius * 1e3, "%.4f") + " mm, mass " + rounded(clump.rigid.mass_properties.mass * 1e6, "%.3f") + " mg\n";
+    if (!std::isfinite(q.volume_error)) return text;
+    text += "# Union of the spheres against the body: volume " + rounded(q.volume_error * 100.0, "%+.3f") + " %, symmetric difference " +
+            rounded(q.symmetric_difference * 100.0, "%.3f") + " %, centre off by " + rounded(q.centre_offset * 1e3, "%.5f") + " mm,\n";
+    text += "# moments of inertia " + rounded(q.inertia_error[0] * 100.0, "%+.3f") + ", " + rounded(q.inertia_error[1] * 100.0, "%+.3f") + ", " +
+            rounded(q.inertia_error[2] * 100.0, "%+.3f") + " %; surface distance: mean " + rounded(q.both.mean * 1e3, "%.4f") + " mm, 99th percentile " +
+            rounded(q.both.p99 * 1e3, "%.4f") + " mm, largest " + rounded(q.both.max * 1e3, "%.4f") + " mm\n";
+    return text;
+}
+
+std::string quality_text(const FitQuality& q) {
+    return "[quality]  # union of the spheres against the body\n"
+           "volume_error = " +
+           plain(q.volume_error) + "  # V_union / V_body - 1\n" + "inertia_error = [" + plain(q.inertia_error[0]) + ", " + plain(q.inertia_error[1]) + ", " +
+           plain(q.inertia_error[2]) + "]  # smallest moment first\n" + "centre_offset = " + quantity(q.centre_offset, "mm") + "\n" +
+           "symmetric_difference = " + plain(q.symmetric_difference) + "  # (missing + outside volume) / V_body\n" +
+           distances_text("body_to_union", q.target_to_union) + distances_text("union_to_body", q.union_to_target) + distances_text("both", q.both) +
+           "distance_error_bound = " + quantity(q.distance_error_bound, "mm") + "\n";
+}
+
+std::string mass_text(const MassProperties& m) {
+    const Quat& q = m.principal_axes;
+    return "[mass_properties]\n"
+           "density = " +
+           quantity(m.density, "kg/m^3") + "\n" + "volume = " + quantity(m.volume, "mm^3") + "\n" + "mass = " + quantity(m.mass, "mg") + "\n" +
+           "centre_of_mass_mesh = " + quantities(m.centre_of_mass_mesh, "mm") + "  # in the frame of the mesh file\n" + "principal_axes = [" + plain(q.w()) +
+           ", " + plain(q.x()) + ", " + plain(q.y()) + ", " + plain(q.z()) + "]  # quaternion w, x, y, z: body to mesh frame\n" +
+           "principal_inertia = " + quantities(m.principal_inertia, "mg*mm^2") + "\n";
+}
+
+std::string provenance_text(const Provenance& p) {
+    std::string text = "[provenance]\ntool = " + toml_string(p.tool) + "\nversion = " + toml_string(p.version) + "\ngit_hash = " + toml_string(p.git_hash) +
+                       "\nverb = " + toml_string(p.verb) + "\nseed = " + toml_string(std::to_string(p.seed)) + "\n\n[provenance.input_hashes]  # SHA-256\n";
+    for (const auto& [file, hash] : p.input_hashes) text += toml_key(file) + " = " + toml_string(hash) + "\n";
+    return text;
+}
+
+std::string spheres_text(const std::vector<Sphere>& spheres) {
+    std::string text =
+        "# Body frame: origin in the centre of mass, axes along the principal axes of inertia. One row a sphere: x, y, z, radius.\nspheres = [\n";
+    for (const Sphere& s : spheres)
+        text += "  [" + quantity(s.centre[0], "mm") + ", " + quantity(s.centre[1], "mm") + ", " + quantity(s.centre[2], "mm") + ", " +
+                quantity(s.radius, "mm") + "],\n";
+    return text + "]\n";
+}
+
+// ---- reading ----------------------------------------------------------------------------------------------------------------
+
+/// A table on the way to our structs: every key is asked for by name, what nobody asked for is an error.
+class TableReader {
+public:
+    TableReader(const toml::table& table, std::string path, const std::string& file) : table_(table), path_(std::move(path)), file_(file) {}
+
+    const toml::node& node(const std::string& key) {
+        known_.push_back(key);
+        const toml::node* found = table_.get(key);
+        if (found == nullptr) throw bad_input("the key '" + full(key) + "' is missing", "make the clump again with `pelletlab shape`", place());
+        return *found;
+    }
+    std::string text(const std::string& key) {
+        const toml::node& n = node(key);
+        if (!n.is_string()) throw wrong(key, n, "a text");
+        return n.as_string()->get();
+    }
+    double quantity(const std::string& key, Dimension dimension) { return quantity_of(key, node(key), dimension); }
+    double number(const std::string& key) { return number_of(key, node(key)); }
+
+    template <std::size_t Count>
+    std::array<double, Count> list(const std::string& key, Dimension dimension) {
+        return list_of<Count>(key, node(key), dimension);
+    }
+    template <std::size_t Count>
+    std::array<double, Count> list_of(const std::string& key, const toml::node& n, Dimension dimension) const {
+        const toml::array* array = n.as_array();
+        if (array == nullptr || array->size() != Count) throw wrong(key, n, "a list of " + std::to_string(Count) + " values");
+        std::array<double, Count> values{};
+        for (std::size_t i = 0; i < Count; ++i)
+            values[i] = dimension == dimension::none ? number_of(key, *array->get(i)) : quantity_of(key, *array->get(i), dimension);
+        return values;
+    }
+    TableReader table(const std::string& key) {
+        const toml::node& n = node(key);
+        if (!n.is_table()) throw wrong(key, n, "a table");
+        return {*n.as_table(), full(key), file_};
+    }
+    const toml::table& raw() const { return table_; }
+
+    void finish() const {
+        for (const auto& [key, ignored] : table_) {
+            const std::string name(key.str());
+            if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
+            const std::string guess = closest_word(name, known_);
+            throw bad_input("unknown key '" + full(name) + "'", guess.empty() ? "remove it" : "did you mean '" + guess + "'?", place_of(key, file_));
+        }
+    }
+    Error wrong(const std::string& key, const toml::node& n, const std::string& wanted) const {
+        return bad_input(full(key) + " must be " + wanted + ", and this is " + kind_of_node(n), "make the clump again with `pelletlab shape`",
+                         place_of(n, file_));
+    }
+    Error impossible(const std::string& key, const std::string& why) const {
+        const toml::node* n = table_.get(key);
+        return bad_input(full(key) + " " + why, "make the clump again with `pelletlab shape`", n != nullptr ? place_of(*n, file_) : place());
+    }
+    const std::string& file() const { return file_; }
+
+private:
+    std::string full(const std::string& key) const { return (path_.empty() ? "" : path_ + ".") + toml_key(key); }
+    Place place() const { return path_.empty() ? Place{file_} : place_of(table_, file_); }
+
+    double quantity_of(const std::string& key, const toml::node& n, Dimension dimension) const {
+        if (!n.is_string()) throw wrong(key, n, "a text with number and unit, for instance \"1.5 " + usual_units(dimension)[0] + "\"");
+        if (n.as_string()->get() == not_known_text) return not_known;
+        try {
+            return parse_quantity(n.as_string()->get(), dimension);
+        } catch (const Error& error) {
+            throw bad_input(full(key) + ": " + error.problem(), error.remedy(), place_of(n, file_));
+        }
+    }
+    double number_of(const std::string& key, const toml::node& n) const {
+        if (n.is_string() && n.as_string()->get() == not_known_text) return not_known;
+        if (n.is_integer()) return static_cast<double>(n.as_integer()->get());
+        if (!n.is_floating_point()) throw wrong(key, n, "a number");
+        const double value = n.as_floating_point()->get();
+        if (!std::isfinite(value))
+            throw bad_input(full(key) + " is not a finite number", "write \"" + std::string(not_known_text) + "\" if it is not known", place_of(n, file_));
+        return value;
+    }
+
+    const toml::table& table_;
+    std::string path_;
+    const std::string& file_;
+    std::vector<std::string> known_;
+};
+
+Vec3 vector_of(const std::array<double, 3>& v) {
+    return {v[0], v[1], v[2]};
+}
+
+DistanceFigures read_distances(TableReader r) {
+    const DistanceFigures d{r.quantity("mean", dimension::length), r.quantity("rms", dimension::length), r.quantity("max", dimension::length),
+                            r.quantity("p99", dimension::length)};
+    r.finish();
+    return d;
+}
+
+FitQuality read_quality(TableReader r) {
+    FitQuality q;
+    q.volume_error = r.number("volume_error");
+    q.inertia_error = vector_of(r.list<3>("inertia_error", dimension::none));
+    q.centre_offset = r.quantity("centre_offset", dimension::length);
+    q.symmetric_difference = r.number("symmetric_difference");
+    q.target_to_union = read_distances(r.table("body_to_union"));
+    q.union_to_target = read_distances(r.table("union_to_body"));
+    q.both = read_distances(r.table("both"));
+    q.distance_error_bound = r.quantity("distance_error_bound", dimension::length);
+    r.finish();
+    return q;
+}
+
+MassProperties read_mass(TableReader r) {
+    MassProperties m;
+    m.density = r.quantity("density", dimension::density);
+    m.volume = r.quantity("volume", dimension::volume);
+    m.mass = r.quantity("mass", dimension::mass);
+    m.centre_of_mass_mesh = vector_of(r.list<3>("centre_of_mass_mesh", dimension::length));
+    const auto q = r.list<4>("principal_axes", dimension::none);
+    m.principal_axes = Quat(q[0], q[1], q[2], q[3]);
+    m.principal_inertia = vector_of(r.list<3>("principal_inertia", dimension::moment_of_inertia));
+    r.finish();
+    if (!(m.density > 0.0)) throw r.impossible("density", "is not positive");
+    if (!(m.volume > 0.0)) throw r.impossible("volume", "is not positive");
+    if (!(m.mass > 0.0)) throw r.impossible("mass", "is not positive");
+    // A file rounded by hand may miss a few digits; more than that, and the three numbers contradict each other.
+    if (std::abs(m.mass / (m.density * m.volume) - 1.0) > 1e-6) throw r.impossible("mass", "is not density · volume");
+    if (!m.centre_of_mass_mesh.allFinite()) throw r.impossible("centre_of_mass_mesh", "is not known");
+    if (!(std::abs(m.principal_axes.norm() - 1.0) < 1e-9)) throw r.impossible("principal_axes", "is no quaternion of length 1");
+    if (!(m.principal_inertia.minCoeff() > 0.0) || !m.principal_inertia.allFinite()) throw r.impossible("principal_inertia", "is not positive");
+    // I_a + I_b ≥ I_c holds for every body; the slack is for rounding of flat ones.
+    if (2.0 * m.principal_inertia.maxCoeff() > m.principal_inertia.sum() * (1.0 + 1e-9))
+        throw r.impossible("principal_inertia", "belongs to no body: one moment is larger than the sum of the two others");
+    return m;
+}
+
+std::vector<Sphere> read_spheres(TableReader& r) {
+    const toml::node& node = r.node("spheres");
+    const toml::array* rows = node.as_array();
+    if (rows == nullptr) throw r.wrong("spheres", node, "a list of rows x, y, z, radius");
+    if (rows->empty()) throw r.impossible("spheres", "is empty");
+    std::vector<Sphere> spheres;
+    for (const toml::node& row : *rows) {
+        const auto v = r.list_of<4>("spheres", row, dimension::length);
+        const Sphere sphere{{v[0], v[1], v[2]}, v[3]};
+        if (!sphere.centre.allFinite() || !(sphere.radius > 0.0))
+            throw bad_input("sphere " + std::to_string(spheres.size() + 1) + " has no positive radius or no known centre",
+                            "make the clump again with `pelletlab shape`", place_of(row, r.file()));
+        spheres.push_back(sphere);
+    }
+    return spheres;
+}
+
+Provenance read_provenance(TableReader r) {
+    Provenance p;
+    p.tool = r.text("tool");
+    p.version = r.text("version");
+    p.git_hash = r.text("git_hash");
+    p.verb = r.text("verb");
+    const std::string seed = r.text("seed");
+    const auto [rest, status] = std::from_chars(seed.data(), seed.data() + seed.size(), p.seed);
+    if (status != std::errc() || rest != seed.data() + seed.size()) throw r.impossible("seed", "is not a whole number as text");
+    TableReader hashes = r.table("input_hashes");
+    for (const auto& [key, ignored] : hashes.raw()) {
+        const std::string name(key.str());
+        p.input_hashes[name] = hashes.text(name);
+    }
+    r.finish();
+    return p;
+}
+
+MassSource read_mass_source(TableReader& r) {
+    const std::string word = r.text("mass_source");
+    std::vector<std::string> words;
+    for (const MassSource source : {MassSource::target_mesh, MassSource::union_of_spheres, MassSource::density_matched_union}) {
+        if (word == mass_source_name(source)) return source;
+        words.push_back(mass_source_name(source));
+    }
+    const std::string guess = closest_word(word, words);
+    throw r.impossible("mass_source", "is '" + word + "', which is not known" + (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+}
+
+}  // namespace
+
+std::string clump_text(const ClumpTemplate& c) {
+    return header_text(c) + "format = " + toml_string(format_name) + "\nformat_version = " + std::to_string(format_version) +
+           "\nname = " + toml_string(c.rigid.name) + "\nmass_source = " + toml_string(mass_source_name(c.mass_source)) + "\n\n" +
+           spheres_text(c.rigid.spheres) + "\n" + mass_text(c.rigid.mass_properties) + "\n" + quality_text(c.quality) +
+           "\n[mesh]\nfile = " + toml_string(c.mesh_file) + "\nunit = " + toml_string(c.mesh_unit) + "\nsha256 = " + toml_string(c.mesh_hash) + "\n\n" +
+           provenance_text(c.provenance);
+}
+
+ClumpTemplate parse_clump(const std::string& text, const std::string& file) {
+    const toml::table table = parse_toml(text, file);
+    TableReader r(table, "", file);
+    const auto* format = table.get_as<std::string>("format");
+    if (format == nullptr || format->get() != format_name)
+        throw bad_input("this is no clump template of pelletlab",
+                        "name a file made by `pelletlab shape`: it says format = \"" + std::string(format_name) + "\"", {file});
+    r.node("format");
+    const toml::node& version = r.node("format_version");
+    if (!version.is_integer() || version.as_integer()->get() != format_version)
+        throw bad_input("this version of the clump format is not known to this pelletlab", "use the pelletlab that wrote it, or make the clump again",
+                        place_of(version, file));
+    ClumpTemplate c;
+    c.rigid.name = r.text("name");
+    c.mass_source = read_mass_source(r);
+    c.rigid.spheres = read_spheres(r);
+    c.rigid.bounding_radius = bounding_radius(c.rigid.spheres);
+    c.rigid.mass_properties = read_mass(r.table("mass_properties"));
+    c.quality = read_quality(r.table("quality"));
+    TableReader mesh = r.table("mesh");
+    c.mesh_file = mesh.text("file");
+    c.mesh_unit = mesh.text("unit");
+    c.mesh_hash = mesh.text("sha256");
+    mesh.finish();
+    c.provenance = read_provenance(r.table("provenance"));
+    r.finish();
+    return c;
+}
+
+void write_clump(const ClumpTemplate& clump, const std::filesystem::path& file) {
+    write_text(file, clump_text(clump));
+}
+
+ClumpTemplate read_clump(const std::filesystem::path& file) {
+    return parse_clump(read_text(file), file.string());
+}
+
+}  // namespace pelletlab::io

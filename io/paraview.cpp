@@ -1,0 +1,151 @@
+#include "io/paraview.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/progress.hpp"
+#include "io/detail/vtk_xml.hpp"
+#include "io/files.hpp"
+
+namespace pelletlab::io {
+
+namespace {
+
+using detail::VtkPolyData;
+namespace fs = std::filesystem;
+
+void push_point(VtkPolyData& data, const Vec3& p) {
+    for (int k = 0; k < 3; ++k) data.points.push_back(static_cast<float>(p[k]));
+}
+
+std::int32_t point_count(const VtkPolyData& data) {
+    return static_cast<std::int32_t>(data.points.size() / 3);
+}
+
+/// Adds the mesh at this pose; returns how many polygons came.
+std::size_t push_mesh(VtkPolyData& data, const TriangleMesh& mesh, const Pose& pose) {
+    const std::int32_t first = point_count(data);
+    const Mat3 rotation = pose.orientation.toRotationMatrix();
+    for (const Vec3& vertex : mesh.vertices) push_point(data, rotation * vertex + pose.position);
+    for (const Triangle& face : mesh.faces) {
+        for (const std::uint32_t corner : face) data.polygons.connectivity.push_back(first + static_cast<std::int32_t>(corner));
+        data.polygons.offsets.push_back(static_cast<std::int32_t>(data.polygons.connectivity.size()));
+    }
+    return mesh.faces.size();
+}
+
+/// Each body's true surface; a body of which only spheres are known is a point with its bounding radius.
+VtkPolyData bodies_of(const TrajectoryHeader& header, const Frame& frame) {
+    VtkPolyData data;
+    std::vector<std::int32_t> body;
+    std::vector<float> speed, radius;
+    const auto push_cells = [&](std::size_t i, std::size_t count) {
+        body.insert(body.end(), count, static_cast<std::int32_t>(i));
+        speed.insert(speed.end(), count, static_cast<float>(frame.velocities[i].norm()));
+    };
+    const auto shape_of = [&header](std::size_t i) -> const PelletShape& { return header.shapes[header.shape_of_body[i]]; };
+    for (std::size_t i = 0; i < header.shape_of_body.size(); ++i) {  // point cells come first in VTK's order of cells
+        if (!shape_of(i).surface_body.empty()) continue;
+        data.vertices.connectivity.push_back(point_count(data));
+        data.vertices.offsets.push_back(static_cast<std::int32_t>(data.vertices.connectivity.size()));
+        push_point(data, frame.positions[i]);
+        radius.push_back(static_cast<float>(shape_of(i).rigid.bounding_radius));
+        push_cells(i, 1);
+    }
+    for (std::size_t i = 0; i < header.shape_of_body.size(); ++i) {
+        if (shape_of(i).surface_body.empty()) continue;
+        push_cells(i, push_mesh(data, shape_of(i).surface_body, {frame.positions[i], frame.orientations[i]}));
+    }
+    if (!radius.empty()) {
+        radius.resize(data.points.size() / 3, 0.0f);
+        data.point_data.push_back({"bounding_radius", 1, std::move(radius)});
+    }
+    data.cell_data.push_back({"body", 1, std::move(body)});
+    data.cell_data.push_back({"speed", 1, std::move(speed)});
+    return data;
+}
+
+/// All spheres as points with radius: ParaView's «Point Gaussian» or its glyph filter draws them.
+VtkPolyData spheres_of(const TrajectoryHeader& header, const Frame& frame) {
+    VtkPolyData data;
+    std::vector<std::int32_t> body;
+    std::vector<float> radius, speed;
+    for (std::size_t i = 0; i < header.shape_of_body.size(); ++i) {
+        const Pose pose{frame.positions[i], frame.orientations[i]};
+        for (const Sphere& sphere : header.shapes[header.shape_of_body[i]].rigid.spheres) {
+            data.vertices.connectivity.push_back(point_count(data));
+            push_point(data, pose.to_world(sphere.centre));
+            radius.push_back(static_cast<float>(sphere.radius));
+            body.push_back(static_cast<std::int32_t>(i));
+            speed.push_back(static_cast<float>(frame.velocities[i].norm()));
+        }
+    }
+    if (!radius.empty()) data.vertices.offsets.push_back(point_count(data));
+    data.point_data.push_back({"radius", 1, std::move(radius)});
+    data.point_data.push_back({"body", 1, std::move(body)});
+    data.point_data.push_back({"speed", 1, std::move(speed)});
+    return data;
+}
+
+VtkPolyData walls_of(const TrajectoryHeader& header, const Frame& frame) {
+    VtkPolyData data;
+    std::vector<std::int32_t> wall;
+    for (std::size_t i = 0; i < header.walls.size(); ++i) {
+        wall.insert(wall.end(), push_mesh(data, header.walls[i].mesh, frame.wall_poses[i]), static_cast<std::int32_t>(i));
+        data.names.push_back(header.walls[i].name);
+    }
+    data.cell_data.push_back({"wall", 1, std::move(wall)});
+    return data;
+}
+
+/// VTK's indices are 32 bits wide here: refuse before they overflow.
+void check_size(const TrajectoryHeader& header) {
+    double corners = 0.0, points = 0.0;
+    for (const std::uint32_t shape : header.shape_of_body) {
+        const PelletShape& s = header.shapes[shape];
+        corners += 3.0 * static_cast<double>(s.surface_body.faces.size());
+        points += static_cast<double>(std::max(s.surface_body.vertices.size(), s.rigid.spheres.size()));
+    }
+    if (corners > 2e9 || points > 2e9)
+        throw bad_input("the pellets' surfaces are too fine for ParaView files", "use a coarser mesh or set output.paraview = false");
+}
+
+std::vector<std::size_t> chosen_frames(std::size_t count, std::size_t every) {
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < count; i += std::max<std::size_t>(every, 1)) chosen.push_back(i);
+    if (!chosen.empty() && chosen.back() + 1 != count) chosen.push_back(count - 1);
+    return chosen;
+}
+
+}  // namespace
+
+ParaviewFiles write_paraview(const FrameSource& trajectory, const fs::path& folder, std::size_t every) {
+    const TrajectoryHeader& header = trajectory.header();
+    check_size(header);
+    struct Series {
+        const char* name;
+        VtkPolyData (*make)(const TrajectoryHeader&, const Frame&);
+        std::vector<detail::PvdEntry> entries;
+    };
+    std::array<Series, 3> all{{{"bodies", bodies_of, {}}, {"spheres", spheres_of, {}}, {"walls", walls_of, {}}}};
+    for (const Series& series : all) prepare_output_folder(folder / series.name);
+    for (const std::size_t index : chosen_frames(trajectory.frame_count(), every)) {
+        throw_if_interrupted();
+        const Frame frame = trajectory.frame(index);
+        char file_name[32];
+        std::snprintf(file_name, sizeof file_name, "%06zu.vtp", index);
+        for (Series& series : all) {
+            VtkPolyData data = series.make(header, frame);
+            data.time = frame.time;
+            write_text(folder / series.name / file_name, detail::vtp_text(data));
+            series.entries.push_back({frame.time, std::string(series.name) + "/" + file_name});
+        }
+    }
+    for (const Series& series : all) write_text(folder / (std::string(series.name) + ".pvd"), detail::pvd_text(series.entries));
+    return {folder / "bodies.pvd", folder / "spheres.pvd", folder / "walls.pvd"};
+}
+
+}  // namespace pelletlab::io
