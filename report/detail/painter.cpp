@@ -1,0 +1,252 @@
+#include "report/detail/painter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pelletlab::report::detail {
+namespace {
+
+constexpr float surface_gap = 5e-5f;  // start of rays above a surface, in half diagonals of the scene: hides single-precision noise
+constexpr float far_away = 1e6f;
+constexpr float ground_radius = 2.2f;  // beyond, in half diagonals, no shadow is worth a ray
+constexpr int most_glass_layers = 12;
+
+Light as_light(const Colour& colour) {
+    return {colour[0], colour[1], colour[2]};
+}
+
+}  // namespace
+
+/// What one camera ray sees.
+struct Painter::Sight {
+    std::uint32_t thing = PixelRecord::nothing;
+    float t = far_away;
+    Vec3f point = Vec3f::Zero();
+    Vec3f true_normal = Vec3f::UnitZ(), normal = Vec3f::UnitZ();  // both towards the eye; `normal` is the smooth one
+    Light surface = Light::Ones();
+    Light key = Light::Zero(), open_sky = Light::Zero(), blocked_sky = Light::Zero();
+    float key_seen = 1.0f, sky_seen = 1.0f;
+    Light veil = Light::Zero();
+    float through = 1.0f;
+};
+
+/// Up to sixteen camera rays of one pixel.
+struct Painter::Packet {
+    std::size_t count = 0;
+    RayPacket rays;
+    Lanes<Sight> seen;
+    bool one_thing = true;  ///< all rays meet the same instance (or the ground, or nothing)
+};
+
+Painter::Painter(const Scene& scene, const PreparedScene& prepared, const Tracer& tracer, const CameraRays& camera, const Lighting& light, std::uint32_t width,
+                 std::uint32_t samples)
+    : prepared_(prepared),
+      tracer_(tracer),
+      camera_(camera),
+      light_(light),
+      background_(as_light(scene.background)),
+      ground_{scene.ground, static_cast<float>((scene.ground_level - prepared.centre.z()) * prepared.scale)},
+      width_(width),
+      samples_(samples) {}
+
+void Painter::read_surface(const Hit& hit, Sight& seen) const {
+    const PreparedInstance& instance = prepared_.opaque[hit.instance];
+    const PreparedObject& object = prepared_.objects[instance.object];
+    seen.surface = as_light(instance.colour);
+    if (hit.part != Part::triangles) return;
+    const float w = 1.0f - hit.u - hit.v;
+    const auto& corners = object.corner_normals[hit.primitive];
+    const Vec3f smooth = instance.rotation * (w * corners[0] + hit.u * corners[1] + hit.v * corners[2]);
+    if (smooth.squaredNorm() > 0.0f) seen.normal = smooth.normalized();
+    if (object.vertex_colours.empty()) return;
+    const Triangle& face = object.faces[hit.primitive];
+    const auto colour = [&object, &face](std::size_t k) { return as_light(object.vertex_colours[face[k]]); };
+    seen.surface = w * colour(0) + hit.u * colour(1) + hit.v * colour(2);
+}
+
+Painter::Sight Painter::sight(const RayPacket& rays, std::size_t lane, const Hit& hit) const {
+    Sight seen;
+    const Vec3f view = rays.along(lane);
+    if (hit.found) {
+        seen.thing = hit.instance;
+        seen.t = hit.t;
+        seen.true_normal = seen.normal = hit.normal;
+        read_surface(hit, seen);
+        if (seen.true_normal.dot(view) > 0.0f) seen.true_normal = -seen.true_normal;
+        if (seen.normal.dot(seen.true_normal) < 0.0f) seen.normal = -seen.normal;
+    } else if (ground_.drawn && view.z() < 0.0f) {
+        const float t = (ground_.level - rays.origin[2][lane]) / view.z();
+        if (t > 0.0f && rays.at(lane, t).head<2>().squaredNorm() < ground_radius * ground_radius) {
+            seen.thing = PixelRecord::ground;
+            seen.t = t;
+        }
+    }
+    seen.point = rays.at(lane, seen.t) + surface_gap * seen.true_normal;
+    return seen;
+}
+
+Painter::Packet Painter::look(std::uint32_t x, std::uint32_t y, const PixelSamples& pattern, std::size_t first) const {
+    Packet packet;
+    packet.count = std::min<std::size_t>(packet_size, samples_ - first);
+    for (std::size_t i = 0; i < packet.count; ++i) {
+        const Point2 film = pattern.film(first + i);
+        const Ray ray = camera_.ray(x + film[0], y + film[1]);
+        packet.rays.set(i, prepared_.scaled(ray.origin).cast<float>(), ray.direction.cast<float>(), 0.0f, far_away);
+    }
+    Lanes<Hit> hits;
+    tracer_.first_hits(Layer::opaque, packet.rays, hits);
+    for (std::size_t i = 0; i < packet.count; ++i) {
+        packet.seen[i] = sight(packet.rays, i, hits[i]);
+        packet.one_thing &= packet.seen[i].thing == packet.seen[0].thing;
+    }
+    return packet;
+}
+
+/// Lights of a point before anything stands in their way.
+void Painter::shade(Sight& seen, const Vec3f& view, const Vec3f& sky_direction) const {
+    const float towards_key = std::max(0.0f, seen.normal.dot(light_.to_key));
+    const float key = light_.key_strength * towards_key, sky = sky_towards(light_, sky_direction);
+    if (seen.thing == PixelRecord::ground) {  // share of what an empty ground would receive
+        const Light share = background_ / (key + sky);
+        seen.key = key * share;
+        seen.open_sky = sky * share;
+        seen.blocked_sky = light_.bounce * sky * share;
+        return;
+    }
+    seen.key = key * seen.surface;
+    seen.open_sky = sky * seen.surface;
+    seen.blocked_sky = light_.bounce * sky * seen.surface * (0.35f + 0.65f * seen.surface);
+    if (towards_key > 0.0f) {
+        float highlight = std::max(0.0f, seen.normal.dot((light_.to_key - view).normalized()));
+        for (int square = 0; square < 5; ++square) highlight *= highlight;  // (n·h)^32
+        seen.key += light_.gloss * highlight;
+    }
+}
+
+/// Pixels at edges: every camera ray has its own ray to the key light and to the sky.
+void Painter::light_every_ray(Packet& packet, const PixelSamples& pattern, std::size_t first) const {
+    RayPacket key_rays, sky_rays;
+    for (std::size_t i = 0; i < packet.count; ++i) {
+        Sight& seen = packet.seen[i];
+        if (seen.thing == PixelRecord::nothing) continue;
+        const Vec3f sky_direction = cosine_direction(seen.normal, pattern.sky(first + i));
+        shade(seen, packet.rays.along(i), sky_direction);
+        sky_rays.set(i, seen.point, sky_direction, 0.0f, far_away);
+        if (seen.normal.dot(light_.to_key) > 0.0f)
+            key_rays.set(i, seen.point, cone_direction(light_.to_key, light_.key_spread, pattern.key(first + i)), 0.0f, far_away);
+    }
+    Lanes<bool> key_blocked, sky_blocked;
+    tracer_.blocked(key_rays, key_blocked);
+    tracer_.blocked(sky_rays, sky_blocked);
+    for (std::size_t i = 0; i < packet.count; ++i) {
+        packet.seen[i].key_seen = key_blocked[i] ? 0.0f : 1.0f;
+        packet.seen[i].sky_seen = sky_blocked[i] ? 0.0f : 1.0f;
+    }
+}
+
+/// Pixels inside a surface: one packet holds up to eight rays to the key light and eight to the sky; smoothing over neighbours makes up for the rest.
+void Painter::light_some_rays(Packet& packet, const PixelSamples& pattern) const {
+    constexpr std::size_t half = packet_size / 2;
+    RayPacket rays;
+    const std::size_t count = std::min(half, packet.count);
+    float key_tried = 0.0f, key_passed = 0.0f, sky_passed = 0.0f;
+    for (std::size_t i = 0; i < packet.count; ++i) {
+        Sight& seen = packet.seen[i];
+        const Vec3f sky_direction = cosine_direction(seen.normal, pattern.sky(i));
+        shade(seen, packet.rays.along(i), sky_direction);
+        if (i >= count) continue;
+        rays.set(half + i, seen.point, sky_direction, 0.0f, far_away);
+        if (seen.normal.dot(light_.to_key) <= 0.0f) continue;
+        rays.set(i, seen.point, cone_direction(light_.to_key, light_.key_spread, pattern.key(i)), 0.0f, far_away);
+        key_tried += 1.0f;
+    }
+    Lanes<bool> blocked;
+    tracer_.blocked(rays, blocked);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (rays.active[i] && !blocked[i]) key_passed += 1.0f;
+        if (!blocked[half + i]) sky_passed += 1.0f;
+    }
+    for (std::size_t i = 0; i < packet.count; ++i) {
+        packet.seen[i].key_seen = key_tried > 0.0f ? key_passed / key_tried : 0.0f;
+        packet.seen[i].sky_seen = sky_passed / static_cast<float>(count);
+    }
+}
+
+/// Glass in front of what was seen: layer by layer from the eye, each lets 1 − opacity through.
+void Painter::add_glass(Packet& packet) const {
+    RayPacket rays = packet.rays;
+    for (std::size_t i = 0; i < packet.count; ++i) rays.farthest[i] = packet.seen[i].t;
+    Lanes<float> last_edge;
+    last_edge.fill(-far_away);
+    Lanes<Hit> hits;
+    for (int layer = 0; layer < most_glass_layers; ++layer) {
+        tracer_.first_hits(Layer::glass, rays, hits);
+        bool any = false;
+        for (std::size_t i = 0; i < packet.count; ++i) {
+            rays.active[i] = hits[i].found;
+            if (!hits[i].found) continue;
+            any = true;
+            rays.nearest[i] = hits[i].t + surface_gap;
+            const bool edge = hits[i].part == Part::edges;
+            // A ray meets a line where it enters and perhaps where it leaves, and lines meet in corners: one coat of paint is enough.
+            if (edge && hits[i].t - last_edge[i] < 8.0f * static_cast<float>(prepared_.line_radius)) continue;
+            if (edge) last_edge[i] = hits[i].t;
+            const GlassLayer glass = edge ? glass_edge() : glass_face(hits[i].normal.dot(rays.along(i)));
+            Sight& seen = packet.seen[i];
+            seen.veil += seen.through * glass.opacity * as_light(glass.colour);
+            seen.through *= 1.0f - glass.opacity;
+        }
+        if (!any) return;
+    }
+}
+
+PixelRecord Painter::pixel(std::uint32_t x, std::uint32_t y) const {
+    const PixelSamples pattern(std::uint64_t{y} * width_ + x);
+    PixelRecord record;
+    Light sum = Light::Zero();
+    for (std::size_t first = 0; first < samples_; first += packet_size) {
+        Packet packet = look(x, y, pattern, first);
+        const bool whole = packet.one_thing && samples_ <= packet_size;
+        const std::uint32_t thing = packet.seen[0].thing;
+        if (!packet.one_thing || (!whole && thing != PixelRecord::nothing))
+            light_every_ray(packet, pattern, first);
+        else if (thing != PixelRecord::nothing)
+            light_some_rays(packet, pattern);
+        for (std::size_t i = 0; i < packet.count; ++i)
+            if (packet.seen[i].thing == PixelRecord::nothing) packet.seen[i].open_sky = background_;
+        if (tracer_.has_glass()) add_glass(packet);
+
+        record.thing = whole ? thing : PixelRecord::mixed;
+        for (std::size_t i = 0; i < packet.count; ++i) {
+            const Sight& seen = packet.seen[i];
+            record.key += seen.key;
+            record.open_sky += seen.open_sky;
+            record.blocked_sky += seen.blocked_sky;
+            record.normal += seen.normal;
+            record.veil += seen.veil;
+            record.through += seen.through;
+            if (!whole)
+                sum += (seen.veil + seen.through * (seen.key_seen * seen.key + seen.sky_seen * seen.open_sky + (1.0f - seen.sky_seen) * seen.blocked_sky))
+                           .min(1.0f);
+        }
+        record.key_seen = packet.seen[0].key_seen;
+        record.sky_seen = packet.seen[0].sky_seen;
+    }
+    const float share = 1.0f / static_cast<float>(samples_);
+    if (record.thing == PixelRecord::mixed) {
+        record = PixelRecord();
+        record.thing = PixelRecord::mixed;
+        record.veil = share * sum;
+        record.through = 0.0f;
+        return record;
+    }
+    record.key *= share;
+    record.open_sky *= share;
+    record.blocked_sky *= share;
+    record.normal.normalize();
+    record.veil *= share;
+    record.through = (record.through - 1.0f) * share;
+    return record;
+}
+
+}  // namespace pelletlab::report::detail

@@ -1,0 +1,60 @@
+// Sample points of a pixel: an even (low-discrepancy) pattern, shifted by random numbers that depend on the pixel alone.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/random.hpp"
+#include "report/detail/prepared_scene.hpp"
+
+namespace pelletlab::report::detail {
+
+using Point2 = std::array<double, 2>;
+
+/// Three patterns on the unit square for one pixel: where rays start, where the key light is met, where the sky is met. Each is Roberts' R2
+/// sequence (M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences") with a random shift (Cranley & Patterson 1976).
+class PixelSamples {
+public:
+    explicit PixelSamples(std::uint64_t pixel) {
+        RandomStream random(0x70656c6c65746c61u, pixel);
+        for (Point2& shift : shifts_) shift = {random.uniform(), random.uniform()};
+    }
+    Point2 film(std::size_t i) const { return point(0, i); }
+    Point2 key(std::size_t i) const { return point(1, i); }
+    Point2 sky(std::size_t i) const { return point(2, i); }
+
+private:
+    Point2 point(std::size_t pattern, std::size_t i) const {
+        constexpr double a1 = 0.7548776662466927, a2 = 0.5698402909980532;  // 1/g and 1/g², g³ = g + 1
+        const auto n = static_cast<double>(i);
+        const double x = shifts_[pattern][0] + n * a1, y = shifts_[pattern][1] + n * a2;
+        return {x - std::floor(x), y - std::floor(y)};
+    }
+    std::array<Point2, 3> shifts_;
+};
+
+/// Two unit vectors that make a right-handed frame with the unit vector n (Duff et al. 2017, J. Comput. Graph. Tech. 6(1)).
+inline std::array<Vec3f, 2> tangents(const Vec3f& n) {
+    const float sign = std::copysign(1.0f, n.z());
+    const float a = -1.0f / (sign + n.z()), b = n.x() * n.y() * a;
+    return {Vec3f(1.0f + sign * n.x() * n.x() * a, sign * b, -sign * n.x()), Vec3f(b, sign + n.y() * n.y() * a, -n.y())};
+}
+
+/// Direction of the hemisphere round n with density cos/π.
+inline Vec3f cosine_direction(const Vec3f& n, const Point2& sample) {
+    const auto square = static_cast<float>(sample[0]), angle = static_cast<float>(2.0 * std::numbers::pi * sample[1]);
+    const float radius = std::sqrt(square);
+    const auto [s, t] = tangents(n);
+    return (radius * std::cos(angle) * s + radius * std::sin(angle) * t + std::sqrt(1.0f - square) * n).normalized();
+}
+
+/// Even direction within a cone round n whose half angle has this tangent (small angles).
+inline Vec3f cone_direction(const Vec3f& n, float tangent, const Point2& sample) {
+    const float radius = tangent * std::sqrt(static_cast<float>(sample[0]));
+    const auto angle = static_cast<float>(2.0 * std::numbers::pi * sample[1]);
+    const auto [s, t] = tangents(n);
+    return (n + radius * std::cos(angle) * s + radius * std::sin(angle) * t).normalized();
+}
+
+}  // namespace pelletlab::report::detail
