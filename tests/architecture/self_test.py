@@ -27,6 +27,7 @@ FAULTS = {
     "link_arrows_are_allowed": [
         ("solver/CMakeLists.txt", "pelletlab_room(solver\n  SOURCES step.cpp\n  DEPENDS core meshes)\n", "solver may not link meshes"),
         ("solver/CMakeLists.txt", "target_link_libraries(pelletlab_solver PRIVATE pelletlab::meshes)\n", "solver may not link meshes"),
+        ("solver/fast/CMakeLists.txt", "pelletlab_room(solver_fast\n  SOURCES a.cpp\n  DEPENDS core meshes_read\n  PRIVATE_LIBRARIES x)\n", "may not link meshes"),
     ],
     "rooms_form_no_cycle": [("core/back.hpp", '// B.\n#pragma once\n#include "solver/step.hpp"\n', "solver -> core -> solver")],
     "heavy_headers_stay_in_their_files": [
@@ -61,6 +62,9 @@ FAULTS = {
     "headers_have_a_guard_and_a_first_sentence": [
         ("solver/a.hpp", "// A.\nint a;\n", "no #pragma once"),
         ("solver/a.hpp", "#pragma once\nint a;\n", "in a sentence"),
+    ],
+    "links_of_documents_lead_somewhere": [
+        ("docs/a.md", "[here](references.bib) [there](https://example.org) [folder](../core/)\n![gone](gone.png)\n", "docs/a.md:2"),
     ],
     "references_are_listed": [("solver/a.hpp", "// A formula (key lost1999).\n#pragma once\n", "'lost1999'")],
 }
