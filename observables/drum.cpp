@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <span>
 #include <string>
 
 #include "core/error.hpp"
@@ -133,6 +134,12 @@ std::string steadiness(const Analysis& analysis) {
     const auto drifts = [&](const std::function<double(const Stretch&)>& figure, double tolerance) {
         std::vector<double> series;
         for (const Stretch& group : analysis.groups) series.push_back(figure(group));
+        // Scatter about each half's own mean: a drift must not hide behind the error that it makes itself.
+        const std::span<double> first_half(series.data(), count / 2), second_half(series.data() + count / 2, count - count / 2);
+        for (const std::span<double> half : {first_half, second_half}) {
+            const double mean = mean_of(half);
+            for (double& value : half) value -= mean;
+        }
         const double error_of_difference = 2.0 * standard_error(series);  // each half has √2 times the error of the whole
         const double allowed = std::isfinite(error_of_difference) ? std::max(tolerance, 3.0 * error_of_difference) : tolerance;
         return std::abs(figure(late) - figure(early)) > allowed;

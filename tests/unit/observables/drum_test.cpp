@@ -129,13 +129,13 @@ TEST(DrumMeasurement, RigidlyTurningBedHasSolidBodyVelocities) {
 TEST(DrumMeasurement, DriftingAngleIsNotSteady) {
     DrumBed bed;
     bed.below = under_straight_surface(-0.018, 25.0 * degree);
-    Trajectory trajectory = drum_trajectory(bed, 40, 0.01, 5);
+    Trajectory trajectory = drum_trajectory(bed, 100, 0.01, 5);
     // The second half is the first turned by 6° about the axis.
     const Eigen::AngleAxisd turn(6.0 * degree, Vec3::UnitY());
-    for (std::size_t k = 20; k < 40; ++k)
+    for (std::size_t k = 50; k < 100; ++k)
         for (Vec3& position : trajectory.frames[k].positions) position = turn * position;
     EXPECT_EQ(measure_drum(trajectory, {bed.radius, bed.length, 2.0, 2e-3}, {0.0, 1.0}).status, "not steady");
-    EXPECT_EQ(measure_drum(trajectory, {bed.radius, bed.length, 2.0, 2e-3}, {0.0, 0.195}).status, "complete");
+    EXPECT_EQ(measure_drum(trajectory, {bed.radius, bed.length, 2.0, 2e-3}, {0.0, 0.495}).status, "complete");
 }
 
 TEST(DrumMeasurement, WindowChoosesTheFrames) {
