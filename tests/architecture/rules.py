@@ -34,7 +34,6 @@ AT_HOME = {
     "oneapi/": {"core"},
     "thread": {"core"},
     "future": {"core"},
-    "mutex": {"core"},
     "atomic": {"core"},
     "execution": {"core"},
     "omp.h": {"core"},
