@@ -35,14 +35,14 @@ struct ReadOptions {
 /// What a file says about a clump, in SI units and in the frame of the file. A quantity the file does not hold is empty.
 struct ImportedClump {
     std::string name;
-    std::vector<Sphere> spheres;              ///< [m]
-    std::optional<double> volume;             ///< [m³]
-    std::optional<double> density;            ///< [kg/m³]
-    std::optional<double> mass;               ///< [kg]
-    std::optional<Vec3> centre_of_mass;       ///< [m]
-    std::optional<Mat3> inertia;              ///< [kg m²], about the centre of mass, along the axes of the file
-    std::optional<Mat3> unit_density_inertia; ///< [m⁵], likewise for a density of 1 kg/m³: what PFC keeps
-    std::vector<std::string> notes;           ///< what a person should know of this reading: «no header: columns taken as x, y, z, radius»
+    std::vector<Sphere> spheres;               ///< [m]
+    std::optional<double> volume;              ///< [m³]
+    std::optional<double> density;             ///< [kg/m³]
+    std::optional<double> mass;                ///< [kg]
+    std::optional<Vec3> centre_of_mass;        ///< [m]
+    std::optional<Mat3> inertia;               ///< [kg m²], about the centre of mass, along the axes of the file
+    std::optional<Mat3> unit_density_inertia;  ///< [m⁵], likewise for a density of 1 kg/m³: what PFC keeps
+    std::vector<std::string> notes;            ///< what a person should know of this reading: «no header: columns taken as x, y, z, radius»
 };
 
 struct Format {

@@ -20,13 +20,15 @@ std::string word_after(std::string_view text, std::string_view key) {
     return std::string(text.substr(0, std::min(text.find_first_of(", \t\r\""), text.size())));
 }
 
-double unit_of(const FormatFile& file, const std::string& said, const std::string& asked, Dimension dimension, const std::string& quantity, const std::string& option) {
+double unit_of(const FormatFile& file, const std::string& said, const std::string& asked, Dimension dimension, const std::string& quantity,
+               const std::string& option) {
     if (said.empty() && asked.empty())
         throw bad_input("this file does not say in which unit its " + quantity + " is", "give the unit, for instance " + option, {file.name});
     const double by_file = said.empty() ? 0.0 : unit_factor(said, dimension);
     const double by_option = asked.empty() ? 0.0 : unit_factor(asked, dimension);
     if (!said.empty() && !asked.empty() && by_file != by_option)
-        throw bad_input("the file says its " + quantity + " is in " + quoted(said) + ", the option says " + quoted(asked), "leave the option away", {file.name});
+        throw bad_input("the file says its " + quantity + " is in " + quoted(said) + ", the option says " + quoted(asked), "leave the option away",
+                        {file.name});
     return said.empty() ? by_option : by_file;
 }
 
@@ -78,15 +80,18 @@ void finish(const FormatFile& file, const Header& header, ImportedClump& clump) 
     if (!clump.volume && clump.mass && clump.density) clump.volume = *clump.mass / *clump.density;
     if (!clump.inertia && clump.unit_density_inertia && clump.density) clump.inertia = Mat3(*clump.unit_density_inertia * *clump.density);
     for (const std::optional<double>& value : {clump.mass, clump.volume, clump.density})
-        if (value && !(std::isfinite(*value) && *value > 0.0)) throw bad_input("mass, volume and density must be positive and finite", "check the units", {file.name});
+        if (value && !(std::isfinite(*value) && *value > 0.0))
+            throw bad_input("mass, volume and density must be positive and finite", "check the units", {file.name});
     if (clump.centre_of_mass && !clump.centre_of_mass->allFinite()) throw bad_input("the centre of mass is not finite", {}, {file.name});
     if (!clump.inertia) return;
     if (!clump.inertia->allFinite()) throw bad_input("the inertia is not finite", "check the units", {file.name});
     const double largest = clump.inertia->cwiseAbs().maxCoeff();
     if (!(largest > 0.0)) throw bad_input("the inertia is zero", "check the units", {file.name});
     const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(*clump.inertia / largest, Eigen::EigenvaluesOnly).eigenvalues();
-    if (!(moments.allFinite() && moments[0] > 0.0)) throw bad_input("the inertia is not that of a body: its principal moments must be positive", {}, {file.name});
-    if (moments[0] + moments[1] < moments[2] * (1.0 - 1e-6)) clump.notes.emplace_back("the largest principal moment exceeds the sum of the others: no body has such an inertia");
+    if (!(moments.allFinite() && moments[0] > 0.0))
+        throw bad_input("the inertia is not that of a body: its principal moments must be positive", {}, {file.name});
+    if (moments[0] + moments[1] < moments[2] * (1.0 - 1e-6))
+        clump.notes.emplace_back("the largest principal moment exceeds the sum of the others: no body has such an inertia");
 }
 
 }  // namespace pelletlab::shapegen::formats::detail

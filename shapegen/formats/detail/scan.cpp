@@ -50,7 +50,9 @@ Token trimmed(Token token) {
     return token;
 }
 
-Place place_of(const FormatFile& file, const Token& token) { return {file.name, token.line, token.column}; }
+Place place_of(const FormatFile& file, const Token& token) {
+    return {file.name, token.line, token.column};
+}
 
 std::string quoted(std::string_view text) {
     std::string shown = "'";
@@ -84,7 +86,8 @@ double number(const FormatFile& file, const Token& token, std::string_view meani
 
 double positive_number(const FormatFile& file, const Token& token, std::string_view meaning) {
     const double value = number(file, token, meaning);
-    if (!(value > 0.0)) throw bad_input(std::string(meaning) + " must be greater than zero, not " + quoted(trimmed(token).text), {}, place_of(file, trimmed(token)));
+    if (!(value > 0.0))
+        throw bad_input(std::string(meaning) + " must be greater than zero, not " + quoted(trimmed(token).text), {}, place_of(file, trimmed(token)));
     return value;
 }
 
@@ -93,8 +96,9 @@ long integer(const FormatFile& file, const Token& token, std::string_view meanin
     long value = 0;
     const auto [end, status] = std::from_chars(bare.text.data(), bare.text.data() + bare.text.size(), value);
     if (status != std::errc() || end != bare.text.data() + bare.text.size() || value < lowest || value > highest)
-        throw bad_input(std::string(meaning) + " must be a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest) + ", not " + quoted(bare.text),
-                        {}, place_of(file, bare));
+        throw bad_input(
+            std::string(meaning) + " must be a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest) + ", not " + quoted(bare.text),
+            {}, place_of(file, bare));
     return value;
 }
 
