@@ -101,7 +101,7 @@ class PelletlabTest(unittest.TestCase):
     def new_case(self, rig="tube"):
         """A case of the rig, as `case new` writes it, with its clump."""
         self.take_clump()
-        self.succeeds("case", "new", rig, "-o", f"{rig}.toml")
+        self.succeeds("case", "new", rig, "-o", f"{rig}.toml", "--overwrite")
         return f"{rig}.toml"
 
     def interrupt(self, process, when, number=signal.SIGINT, patience=120.0):
