@@ -1,0 +1,126 @@
+#include "experiments/rotating_drum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "meshes/makers.hpp"
+#include "meshes/read_mesh.hpp"
+#include "observables/drum.hpp"
+#include "packing/insertion.hpp"
+#include "packing/stage.hpp"
+
+namespace pelletlab::experiments {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double sparse = 10.0;  // frames before the measurement are stored at this many times frame_interval
+
+/// Area of the part of a circle below z = level [m²].
+double segment_area(double radius, double level) {
+    const double z = std::clamp(level / radius, -1.0, 1.0);
+    return radius * radius * (pi - std::acos(z) + z * std::sqrt(1.0 - z * z));
+}
+
+/// The lowest lens of the drum that holds the pellets at insertion.packing_fraction, one bounding sphere deeper, and deeper still while the lattice of bounding
+/// spheres has too few sites: pellets should not fall further than they must.
+packing::InsertionRegion cloud_region(const Case& c, const RigidTemplate& pellet, std::uint32_t count) {
+    packing::InsertionRegion region{packing::InsertionRegion::Axis::y, 0.5 * c.drum.diameter, -0.5 * c.drum.length, 0.5 * c.drum.length};
+    const double wanted = count * pellet.mass_properties.volume / (c.insertion.packing_fraction * c.drum.length);
+    double below = -region.radius, above = region.radius;
+    for (int halving = 0; halving < 60; ++halving) {
+        const double middle = 0.5 * (below + above);
+        (segment_area(region.radius, middle) < wanted ? below : above) = middle;
+    }
+    region.ceiling = above + 2.0 * pellet.bounding_radius;
+    while (region.ceiling < region.radius && packing::cloud_capacity(pellet, region) < count) region.ceiling += 0.5 * pellet.bounding_radius;
+    region.ceiling = std::min(region.ceiling, region.radius);
+    return region;
+}
+
+/// The user's own drum: it must be where the measurement expects it.
+TriangleMesh read_drum_mesh(const Case& c) {
+    const std::string file = (std::filesystem::path(c.folder) / c.drum.mesh_file).string();
+    TriangleMesh mesh = meshes::read_mesh(file, c.drum.mesh_unit);
+    const Box box = bounding_box(mesh);
+    const Vec3 half(0.5 * c.drum.diameter, 0.5 * c.drum.length, 0.5 * c.drum.diameter);
+    const double slack = 0.05 * c.drum.diameter;
+    if ((box.min() + half).maxCoeff() > slack || (box.max() - half).minCoeff() < -slack)
+        throw bad_input("the drum mesh does not enclose a cylinder of drum.diameter and drum.length about the y axis, centred in the origin",
+                        "move the mesh there, or correct drum.diameter, drum.length or drum.mesh_unit", {file});
+    return mesh;
+}
+
+std::vector<solver::WallDefinition> drum_walls(const Case& c) {
+    const DrumRig& drum = c.drum;
+    if (!drum.mesh_file.empty()) return {packing::define_wall(c, "shell", read_drum_mesh(c), drum.material)};
+    const double end = 0.5 * drum.length;
+    return {packing::define_wall(c, "shell", meshes::make_drum_shell(drum.diameter, drum.length, drum.facets), drum.material),
+            packing::define_wall(c, "front", meshes::make_drum_end(drum.diameter, -end, true, drum.facets), drum.material),
+            packing::define_wall(c, "back", meshes::make_drum_end(drum.diameter, end, false, drum.facets), drum.material)};
+}
+
+void start_rotation(solver::Simulation& simulation, const DrumRig& drum) {
+    for (std::size_t wall = 0; wall < simulation.definition().walls.size(); ++wall)
+        if (drum.end_plates_rotate || simulation.definition().walls[wall].name == "shell")
+            simulation.set_wall_motion(wall, {Vec3::Zero(), Vec3::UnitY(), drum.speed, Vec3::Zero()});
+}
+
+}  // namespace
+
+std::uint32_t pellet_count(const DrumRig& drum, double pellet_volume) {
+    const double drum_volume = pi * 0.25 * drum.diameter * drum.diameter * drum.length;
+    const double count = std::round(drum.fill_fraction * drum_volume * drum.bulk_packing_fraction / pellet_volume);
+    if (!(count >= 1.0) || count > 1e8)
+        throw bad_input("a fill fraction of " + std::to_string(drum.fill_fraction) + " is " + std::to_string(count) + " pellets in this drum",
+                        "check the drum's size, drum.fill_fraction and the pellet's unit");
+    return static_cast<std::uint32_t>(count);
+}
+
+packing::RunResult run_drum(const Case& c, const packing::RunInputs& inputs, const std::function<packing::FrameSink(const TrajectoryHeader&)>& open_sink,
+                            const ProgressSink& progress) {
+    if (c.rig != Rig::drum) throw bad_input("the case '" + c.name + "' is not a drum", "set rig = \"drum\"");
+    solver::Simulation simulation(packing::define_simulation(c, inputs, drum_walls(c)));
+    const RigidTemplate& pellet = simulation.definition().templates.front();
+    const std::uint32_t count = c.pellet.count > 0 ? c.pellet.count : pellet_count(c.drum, pellet.mass_properties.volume);
+    simulation.add_bodies(packing::loose_cloud(pellet, count, cloud_region(c, pellet, count), c.seed, {0.0, 0.0, -c.insertion.fall_speed}));
+
+    Trajectory measured;
+    measured.head = packing::trajectory_header(c, inputs, simulation);
+    const packing::FrameSink stored = open_sink ? open_sink(measured.head) : packing::FrameSink();
+    if (stored) stored(packing::capture_frame(simulation));
+    packing::RunMeter meter;
+    const double sparse_interval = sparse * c.output.frame_interval;
+    packing::settle(simulation, c, sparse_interval, stored, progress, meter);
+
+    start_rotation(simulation, c.drum);
+    packing::Stage spin_up;
+    spin_up.name = "spinning up";
+    spin_up.duration = c.time.spin_up;
+    spin_up.frame_interval = sparse_interval;
+    packing::run_stage(simulation, spin_up, stored, progress, meter);
+
+    packing::Stage measure;
+    measure.name = "measuring";
+    measure.duration = c.time.measure;
+    measure.frame_interval = c.output.frame_interval;
+    const TimeWindow window{simulation.time(), simulation.time() + c.time.measure};
+    const packing::FrameSink kept = [&](const Frame& frame) {
+        if (stored) stored(frame);
+        measured.frames.push_back(frame);
+    };
+    packing::run_stage(simulation, measure, kept, progress, meter);
+
+    packing::RunResult result;
+    result.observables = observables::measure_drum(measured, {0.5 * c.drum.diameter, c.drum.length, c.drum.speed, c.measurement.velocity_grid}, window);
+    result.state_hash = simulation.state_hash();
+    result.steps = meter.steps;
+    result.wall_seconds = meter.wall_seconds;
+    result.pellet_steps_per_second = meter.pellet_steps_per_second(count);
+    return result;
+}
+
+}  // namespace pelletlab::experiments

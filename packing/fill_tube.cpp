@@ -1,0 +1,92 @@
+#include "packing/fill_tube.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "meshes/makers.hpp"
+#include "meshes/read_mesh.hpp"
+#include "observables/bed.hpp"
+#include "packing/insertion.hpp"
+#include "packing/stage.hpp"
+
+namespace pelletlab::packing {
+
+namespace {
+
+/// Height that gives the cloud its packing fraction between bounding spheres that reach over its ends.
+double cloud_height(const Case& c, const RigidTemplate& pellet) {
+    const double section = std::numbers::pi * 0.25 * c.tube.diameter * c.tube.diameter;
+    return c.pellet.count * pellet.mass_properties.volume / (c.insertion.packing_fraction * section) + 2.0 * pellet.bounding_radius;
+}
+
+/// The user's own tube: it must be where the measurement expects it.
+TriangleMesh read_tube_mesh(const Case& c, double cloud_top) {
+    const std::string file = (std::filesystem::path(c.folder) / c.tube.mesh_file).string();
+    TriangleMesh mesh = meshes::read_mesh(file, c.tube.mesh_unit);
+    const Box box = bounding_box(mesh);
+    const double radius = 0.5 * c.tube.diameter, slack = 0.05 * c.tube.diameter;
+    const bool fits = std::abs(box.min().z()) < slack && box.min().head<2>().maxCoeff() < -radius + slack && box.max().head<2>().minCoeff() > radius - slack;
+    if (!fits)
+        throw bad_input("the tube mesh does not enclose a circle of tube.diameter about the z axis with its floor at z = 0",
+                        "move the mesh there, or correct tube.diameter or tube.mesh_unit", {file});
+    if (box.max().z() < cloud_top)
+        throw bad_input(
+            "the tube mesh is " + std::to_string(1e3 * box.max().z()) + " mm high and the loose pellets need " + std::to_string(1e3 * cloud_top) + " mm",
+            "use a higher tube, fewer pellets, or a larger insertion.packing_fraction", {file});
+    return mesh;
+}
+
+std::vector<solver::WallDefinition> tube_walls(const Case& c, double cloud_top) {
+    const TubeRig& tube = c.tube;
+    std::vector<solver::WallDefinition> walls;
+    if (!tube.mesh_file.empty()) {
+        walls.push_back(define_wall(c, "shell", read_tube_mesh(c, cloud_top), tube.material));
+        return walls;
+    }
+    const double height = tube.height > 0.0 ? tube.height : cloud_top;
+    walls.push_back(define_wall(c, "shell", meshes::make_tube_shell(tube.diameter, 0.0, height, tube.facets), tube.material));
+    walls.push_back(define_wall(c, "floor", meshes::make_disc(0.5 * tube.diameter, 0.0, true, tube.facets), tube.material));
+    return walls;
+}
+
+Vec3 falling(const Case& c) {
+    const double g = c.gravity.norm();
+    return g > 0.0 ? Vec3(c.gravity * (c.insertion.fall_speed / g)) : Vec3(0.0, 0.0, -c.insertion.fall_speed);
+}
+
+}  // namespace
+
+RunResult fill_tube(const Case& c, const RunInputs& inputs, const std::function<FrameSink(const TrajectoryHeader&)>& open_sink, const ProgressSink& progress) {
+    if (c.rig != Rig::tube) throw bad_input("the case '" + c.name + "' is not a tube", "set rig = \"tube\"");
+    if (c.pellet.count == 0) throw bad_input("pellet.count is 0: a tube needs a number of pellets", "set pellet.count");
+    const double wanted_top = cloud_height(c, inputs.clump.rigid);
+    const double cloud_top = c.tube.height > 0.0 ? std::min(wanted_top, c.tube.height) : wanted_top;
+    const InsertionRegion region{InsertionRegion::Axis::z, 0.5 * c.tube.diameter, 0.0, cloud_top};
+
+    solver::Simulation simulation(define_simulation(c, inputs, tube_walls(c, cloud_top)));
+    simulation.add_bodies(loose_cloud(simulation.definition().templates.front(), c.pellet.count, region, c.seed, falling(c)));
+
+    Trajectory last;  // the bed is measured from one frame
+    last.head = trajectory_header(c, inputs, simulation);
+    const FrameSink stored = open_sink ? open_sink(last.head) : FrameSink();
+    const FrameSink frames = [&](const Frame& frame) {
+        if (stored) stored(frame);
+        last.frames.assign(1, frame);
+    };
+    frames(capture_frame(simulation));
+    RunMeter meter;
+    const SettleStatus status = settle(simulation, c, c.output.frame_interval, frames, progress, meter);
+
+    RunResult result;
+    result.observables = observables::measure_tube_bed(last, {0.5 * c.tube.diameter, 0.0, c.measurement.height_grid});
+    if (status == SettleStatus::not_at_rest) result.observables.status = "not at rest";
+    result.state_hash = simulation.state_hash();
+    result.steps = meter.steps;
+    result.wall_seconds = meter.wall_seconds;
+    result.pellet_steps_per_second = meter.pellet_steps_per_second(simulation.bodies().size());
+    return result;
+}
+
+}  // namespace pelletlab::packing

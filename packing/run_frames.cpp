@@ -1,0 +1,78 @@
+#include "packing/run_frames.hpp"
+
+#include "core/error.hpp"
+
+namespace pelletlab::packing {
+
+namespace {
+
+const Material& material_of(const Case& c, const std::string& name) {
+    const auto found = c.materials.find(name);
+    if (found == c.materials.end())
+        throw bad_input("the material '" + name + "' is not defined", "add a table [materials." + name + "] to the case", {c.folder});
+    return found->second;
+}
+
+solver::ElasticMaterial elastic(const Material& material) {
+    return {material.shear_modulus, material.poisson_ratio};
+}
+
+solver::PairParameters pair(const ContactParameters& contact) {
+    return {contact.restitution, contact.sliding_friction, contact.rolling_friction};
+}
+
+}  // namespace
+
+solver::SimulationDefinition define_simulation(const Case& c, const RunInputs& inputs, std::vector<solver::WallDefinition> walls) {
+    const Material& material = material_of(c, c.pellet.material);
+    const auto contact = c.contacts.find("pellet-pellet");
+    if (contact == c.contacts.end())
+        throw bad_input("the contact 'pellet-pellet' is not defined", "add a table [contacts.pellet-pellet] to the case", {c.folder});
+    RigidTemplate pellet = inputs.clump.rigid;
+    if (pellet.spheres.empty() || !(pellet.mass_properties.density > 0.0) || !(pellet.mass_properties.volume > 0.0))
+        throw bad_input("the clump '" + pellet.name + "' has no spheres, volume or density", "make it again with: pelletlab shape");
+    pellet.mass_properties = with_density(pellet.mass_properties, material.density);
+    pellet.bounding_radius = bounding_radius(pellet.spheres);
+
+    solver::SimulationDefinition definition;
+    definition.templates = {std::move(pellet)};
+    definition.pellet_material = elastic(material);
+    definition.pellet_contact = pair(contact->second);
+    definition.walls = std::move(walls);
+    definition.gravity = c.gravity;
+    definition.time_step = c.time.step;
+    return definition;
+}
+
+solver::WallDefinition define_wall(const Case& c, std::string name, TriangleMesh mesh, const std::string& material) {
+    auto contact = c.contacts.find("pellet-" + name);
+    if (contact == c.contacts.end()) contact = c.contacts.find("pellet-" + material);
+    if (contact == c.contacts.end())
+        throw bad_input("no contact is defined between the pellets and the wall '" + name + "' of material '" + material + "'",
+                        "add a table [contacts.pellet-" + name + "] or [contacts.pellet-" + material + "] to the case", {c.folder});
+    solver::WallDefinition wall;
+    wall.name = std::move(name);
+    wall.mesh = std::move(mesh);
+    wall.material = elastic(material_of(c, material));
+    wall.contact = pair(contact->second);
+    return wall;
+}
+
+Frame capture_frame(const solver::Simulation& simulation) {
+    const solver::BodyState& bodies = simulation.bodies();
+    return {simulation.time(), bodies.position, bodies.orientation, bodies.velocity, bodies.spin, simulation.wall_poses()};
+}
+
+TrajectoryHeader trajectory_header(const Case& c, const RunInputs& inputs, const solver::Simulation& simulation) {
+    TrajectoryHeader header;
+    header.case_name = c.name;
+    for (const RigidTemplate& pellet : simulation.definition().templates) header.shapes.push_back({pellet, inputs.pellet_surface_body});
+    header.shape_of_body = simulation.bodies().template_index;
+    for (const solver::WallDefinition& wall : simulation.definition().walls) header.walls.push_back({wall.name, wall.mesh});
+    header.gravity = c.gravity;
+    header.resolved_case = inputs.resolved_case;
+    header.provenance = inputs.provenance;
+    return header;
+}
+
+}  // namespace pelletlab::packing
