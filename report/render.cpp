@@ -34,16 +34,17 @@ void paint(const Painter& painter, Band& band) {
     });
 }
 
-constexpr std::int64_t smoothing_radius = 3;  // [pixel]
+constexpr std::int64_t smoothing_radius = 3, ground_smoothing_radius = 7;  // [pixel]; the ground is flat and shows noise most
 
 /// Colour of a pixel, the shares of light that reach it averaged over neighbours on the same thing that face nearly the same way.
 Light smoothed(const Band& band, std::int64_t x, std::int64_t y) {
     constexpr float same_way = 0.97f;  // cosine: 14°
     const PixelRecord& here = band.at(x, y);
     if (!here.smooth()) return here.colour(here.key_seen, here.sky_seen);
+    const std::int64_t radius = here.thing == PixelRecord::ground ? ground_smoothing_radius : smoothing_radius;
     float key = 0.0f, sky = 0.0f, count = 0.0f;
-    for (std::int64_t v = std::max(y - smoothing_radius, band.top); v <= std::min(y + smoothing_radius, band.bottom - 1); ++v)
-        for (std::int64_t u = std::max<std::int64_t>(x - smoothing_radius, 0); u <= std::min(x + smoothing_radius, band.width - 1); ++u) {
+    for (std::int64_t v = std::max(y - radius, band.top); v <= std::min(y + radius, band.bottom - 1); ++v)
+        for (std::int64_t u = std::max<std::int64_t>(x - radius, 0); u <= std::min(x + radius, band.width - 1); ++u) {
             const PixelRecord& there = band.at(u, v);
             if (there.thing != here.thing || there.normal.dot(here.normal) < same_way) continue;
             key += there.key_seen;
@@ -66,7 +67,8 @@ Image render(const Scene& scene, const Camera& camera, std::uint32_t width, std:
     constexpr std::int64_t band_rows = 256;  // bounds the memory; its neighbours' rows for smoothing are painted again
     for (std::int64_t top = 0; top < height; top += band_rows) {
         const std::int64_t bottom = std::min<std::int64_t>(top + band_rows, height);
-        Band band{width, std::max<std::int64_t>(0, top - smoothing_radius), std::min<std::int64_t>(bottom + smoothing_radius, height), {}};
+        const std::int64_t margin = scene.ground ? ground_smoothing_radius : smoothing_radius;
+        Band band{width, std::max<std::int64_t>(0, top - margin), std::min<std::int64_t>(bottom + margin, height), {}};
         band.records.resize(static_cast<std::size_t>(band.width * (band.bottom - band.top)));
         paint(painter, band);
         parallel_for(static_cast<std::size_t>(bottom - top), 8, [&](std::size_t row) {

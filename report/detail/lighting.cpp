@@ -13,7 +13,7 @@ Lighting studio(const Camera& camera) {
     Lighting light;
     const Vec3 up = camera.up.normalized();
     light.up = up.cast<float>();
-    light.to_key = (-0.55 * frame.right + 0.80 * up - 0.70 * frame.forward).normalized().cast<float>();
+    light.to_key = (-0.50 * frame.right + 0.95 * up - 0.70 * frame.forward).normalized().cast<float>();
     return light;
 }
 

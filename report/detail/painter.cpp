@@ -49,19 +49,27 @@ Painter::Painter(const Scene& scene, const PreparedScene& prepared, const Tracer
       width_(width),
       samples_(samples) {}
 
+namespace {
+
+/// Normal between those of the hit triangle's corners; a sphere's own normal.
+Vec3f smooth_normal(const PreparedScene& scene, const PreparedInstance& instance, const Hit& hit) {
+    if (hit.part != Part::triangles) return hit.normal;
+    const auto& corners = scene.objects[instance.object].corner_normals[hit.primitive];
+    const Vec3f normal = instance.rotation * ((1.0f - hit.u - hit.v) * corners[0] + hit.u * corners[1] + hit.v * corners[2]);
+    return normal.squaredNorm() > 0.0f ? Vec3f(normal.normalized()) : hit.normal;
+}
+
+}  // namespace
+
 void Painter::read_surface(const Hit& hit, Sight& seen) const {
     const PreparedInstance& instance = prepared_.opaque[hit.instance];
     const PreparedObject& object = prepared_.objects[instance.object];
     seen.surface = as_light(instance.colour);
-    if (hit.part != Part::triangles) return;
-    const float w = 1.0f - hit.u - hit.v;
-    const auto& corners = object.corner_normals[hit.primitive];
-    const Vec3f smooth = instance.rotation * (w * corners[0] + hit.u * corners[1] + hit.v * corners[2]);
-    if (smooth.squaredNorm() > 0.0f) seen.normal = smooth.normalized();
-    if (object.vertex_colours.empty()) return;
+    seen.normal = smooth_normal(prepared_, instance, hit);
+    if (hit.part != Part::triangles || object.vertex_colours.empty()) return;
     const Triangle& face = object.faces[hit.primitive];
     const auto colour = [&object, &face](std::size_t k) { return as_light(object.vertex_colours[face[k]]); };
-    seen.surface = w * colour(0) + hit.u * colour(1) + hit.v * colour(2);
+    seen.surface = (1.0f - hit.u - hit.v) * colour(0) + hit.u * colour(1) + hit.v * colour(2);
 }
 
 Painter::Sight Painter::sight(const RayPacket& rays, std::size_t lane, const Hit& hit) const {
@@ -70,7 +78,7 @@ Painter::Sight Painter::sight(const RayPacket& rays, std::size_t lane, const Hit
     if (hit.found) {
         seen.thing = hit.instance;
         seen.t = hit.t;
-        seen.true_normal = seen.normal = hit.normal;
+        seen.true_normal = hit.normal;
         read_surface(hit, seen);
         if (seen.true_normal.dot(view) > 0.0f) seen.true_normal = -seen.true_normal;
         if (seen.normal.dot(seen.true_normal) < 0.0f) seen.normal = -seen.normal;
@@ -191,7 +199,7 @@ void Painter::add_glass(Packet& packet) const {
             // A ray meets a line where it enters and perhaps where it leaves, and lines meet in corners: one coat of paint is enough.
             if (edge && hits[i].t - last_edge[i] < 8.0f * static_cast<float>(prepared_.line_radius)) continue;
             if (edge) last_edge[i] = hits[i].t;
-            const GlassLayer glass = edge ? glass_edge() : glass_face(hits[i].normal.dot(rays.along(i)));
+            const GlassLayer glass = edge ? glass_edge() : glass_face(smooth_normal(prepared_, prepared_.glass[hits[i].instance], hits[i]).dot(rays.along(i)));
             Sight& seen = packet.seen[i];
             seen.veil += seen.through * glass.opacity * as_light(glass.colour);
             seen.through *= 1.0f - glass.opacity;
