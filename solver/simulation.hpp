@@ -14,6 +14,7 @@
 #include "core/rigid_template.hpp"
 #include "core/triangle_mesh.hpp"
 #include "core/vec.hpp"
+#include "solver/wall_report.hpp"
 
 namespace pelletlab::solver {
 
@@ -46,6 +47,14 @@ struct WallDefinition {
     double feature_angle = 0.5235987755982988;  ///< [rad], joins flatter than this (30°) belong to one smooth patch
 };
 
+/// How far the neighbour search looks ahead [m]; 0 chooses it from the size of the bodies. Results do not depend on it, speed does.
+struct SearchSkins {
+    double bodies = 0.0;           ///< between bounding spheres
+    double spheres = 0.0;          ///< between the spheres of two bodies
+    double wall_faces = 0.0;       ///< between bounding spheres and wall faces
+    double wall_candidates = 0.0;  ///< between spheres and wall faces
+};
+
 struct SimulationDefinition {
     std::vector<RigidTemplate> templates;
     ElasticMaterial pellet_material;
@@ -54,6 +63,7 @@ struct SimulationDefinition {
     Vec3 gravity = {0.0, 0.0, -9.81};  ///< [m/s²]
     double time_step = 1e-5;           ///< [s]
     Box domain;                        ///< a body whose centre leaves it is an Error(numerical) with place, time and cause; empty: the walls' box, enlarged
+    SearchSkins skins;
 };
 
 struct BodyPlacement {
@@ -87,6 +97,16 @@ struct ContactSummary {
     double largest_overlap_ratio = 0.0;  ///< overlap / radius of the smaller sphere
 };
 
+/// One touching sphere pair, or a sphere touching a wall.
+struct ContactPoint {
+    std::uint32_t body_i = 0, sphere_i = 0;  ///< the first body; with a wall: the body
+    std::int32_t wall = -1;                  ///< index of the wall, or −1
+    std::uint32_t body_j = 0, sphere_j = 0;  ///< the second body; unused with a wall
+    Vec3 normal = Vec3::UnitZ();             ///< from i to j; with a wall: from the wall to the body
+    double overlap = 0.0;                    ///< [m]
+    Vec3 spring = Vec3::Zero();              ///< [m], tangential displacement, world
+};
+
 struct EnergyReport {
     double kinetic_translation = 0.0, kinetic_rotation = 0.0, gravity = 0.0;  ///< [J]
 };
@@ -115,6 +135,10 @@ public:
     std::vector<Pose> wall_poses() const;
     const std::vector<WallLoad>& wall_loads() const;
     ContactSummary contacts() const;
+    /// Every contact at the present instant, ordered by bodies and spheres, those with walls last.
+    std::vector<ContactPoint> contact_points() const;
+    std::vector<WallReport> wall_reports() const;
+    std::uint64_t neighbour_rebuilds() const;
     EnergyReport energy() const;
 
     /// Hash over every bit that decides the future: poses, velocities, contact history, wall poses.
@@ -124,8 +148,9 @@ public:
     void save_checkpoint(const std::filesystem::path& file) const;
     void load_checkpoint(const std::filesystem::path& file);
 
+    struct State;  ///< private to this room: solver/detail/state.hpp
+
 private:
-    struct State;
     std::unique_ptr<State> state_;
 };
 

@@ -1,0 +1,338 @@
+// Checkpoints: magic, version, fingerprint of the definition, payload length, checksum, payload. Only what decides the future is kept; neighbour
+// lists are made anew, because results do not depend on them.
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "solver/detail/motion.hpp"
+#include "solver/detail/state.hpp"
+
+namespace pelletlab::solver {
+
+namespace {
+
+constexpr std::array<char, 8> magic{'P', 'L', 'A', 'B', 'C', 'K', 'P', 'T'};
+constexpr std::uint32_t version = 1;
+
+struct Header {
+    std::array<char, 8> magic;
+    std::uint32_t version, reserved;
+    std::uint64_t fingerprint, payload_bytes, checksum;
+};
+
+std::uint64_t checksum_of(const std::vector<char>& bytes) {
+    detail::Hash hash;
+    hash.add(static_cast<std::uint64_t>(bytes.size()));
+    std::size_t k = 0;
+    for (; k + 8 <= bytes.size(); k += 8) {
+        std::uint64_t word;
+        std::memcpy(&word, bytes.data() + k, 8);
+        hash.add(word);
+    }
+    std::uint64_t rest = 0;
+    if (k < bytes.size()) std::memcpy(&rest, bytes.data() + k, bytes.size() - k);
+    hash.add(rest);
+    return hash.value();
+}
+
+class Writer {
+public:
+    template <class T>
+    void put(const T& value) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        const char* p = reinterpret_cast<const char*>(&value);
+        bytes.insert(bytes.end(), p, p + sizeof(T));
+    }
+    void put(const Vec3& v) {
+        for (int k = 0; k < 3; ++k) put(v[k]);
+    }
+    void put(const Quat& q) {
+        for (int k = 0; k < 4; ++k) put(q.coeffs()[k]);
+    }
+    std::vector<char> bytes;
+};
+
+class Reader {
+public:
+    Reader(const std::vector<char>& bytes, const std::string& file) : bytes_(bytes), file_(file) {}
+    template <class T>
+    T get() {
+        need(sizeof(T));
+        T value;
+        std::memcpy(&value, bytes_.data() + at_, sizeof(T));
+        at_ += sizeof(T);
+        return value;
+    }
+    Vec3 get_vec() {
+        Vec3 v;
+        for (int k = 0; k < 3; ++k) v[k] = get<double>();
+        return v;
+    }
+    Quat get_quat() {
+        Quat q;
+        for (int k = 0; k < 4; ++k) q.coeffs()[k] = get<double>();
+        return q;
+    }
+    /// A count of things of `size` bytes each that must fit into what is left.
+    std::size_t get_count(std::size_t size) {
+        const auto n = get<std::uint64_t>();
+        if (n > (bytes_.size() - at_) / size) broken();
+        return static_cast<std::size_t>(n);
+    }
+    void end() const {
+        if (at_ != bytes_.size()) broken();
+    }
+    [[noreturn]] void broken() const { throw bad_input("the checkpoint contradicts itself", "it is damaged: use an older one", {file_}); }
+
+private:
+    const std::vector<char>& bytes_;
+    std::string file_;
+    std::size_t at_ = 0;
+    void need(std::size_t n) const {
+        if (n > bytes_.size() - at_) broken();
+    }
+};
+
+struct SavedSpring {
+    std::uint32_t i, j;
+    std::uint32_t a, b;
+    detail::Spring spring;
+};
+
+struct SavedHistory {
+    std::uint32_t body, sphere, patch;
+    Vec3 normal, spring;
+};
+
+/// Everything of a checkpoint, read and checked before the simulation is touched.
+struct Saved {
+    std::uint64_t steps = 0;
+    detail::Bodies bodies;
+    std::vector<SavedSpring> springs;
+    struct SavedWall {
+        WallMotion motion;
+        std::uint64_t motion_start = 0;
+        Pose start_pose;
+        WallLoad load;
+        std::vector<SavedHistory> history;
+    };
+    std::vector<SavedWall> walls;
+};
+
+std::vector<char> payload_of(const Simulation::State& s) {
+    Writer w;
+    w.put(s.steps);
+    w.put(static_cast<std::uint64_t>(s.bodies.size()));
+    for (const std::uint32_t t : s.bodies.template_index) w.put(t);
+    s.bodies.each_array([&](const std::vector<double>& a) {
+        for (const double x : a) w.put(x);
+    });
+    std::vector<SavedSpring> springs;
+    for (std::size_t k = 0; k < s.pairs.records.size(); ++k) {
+        const detail::PairRecord& r = s.pairs.records[k];
+        const detail::PairBlock& block = s.pairs.blocks[k / detail::PairBlock::pairs_per_block];
+        for (std::size_t c = r.first; c < r.first + std::size_t{r.count}; ++c)
+            if (block.candidates[c].touching()) springs.push_back({r.i, r.j, block.candidates[c].sphere_a(), block.candidates[c].b, block.springs[c]});
+    }
+    w.put(static_cast<std::uint64_t>(springs.size()));
+    for (const SavedSpring& spring : springs) w.put(spring);
+    w.put(static_cast<std::uint64_t>(s.walls.size()));
+    for (std::size_t k = 0; k < s.walls.size(); ++k) {
+        const detail::Wall& wall = s.walls[k];
+        w.put(wall.motion.point), w.put(wall.motion.axis), w.put(wall.motion.rotation_speed), w.put(wall.motion.velocity);
+        w.put(wall.motion_start);
+        w.put(wall.start_pose.position), w.put(wall.start_pose.orientation);
+        w.put(s.wall_loads[k].force), w.put(s.wall_loads[k].torque);
+        std::uint64_t count = 0;
+        for (const detail::WallWatch& watch : wall.watches) count += watch.near ? watch.near->history.size() : 0;
+        w.put(count);
+        for (std::size_t i = 0; i < wall.watches.size(); ++i) {
+            if (!wall.watches[i].near) continue;
+            for (const detail::WallHistory& h : wall.watches[i].near->history) {
+                w.put(static_cast<std::uint32_t>(i)), w.put(h.sphere), w.put(h.patch);
+                w.put(h.normal), w.put(h.spring);
+            }
+        }
+    }
+    return std::move(w.bytes);
+}
+
+Saved read_payload(const std::vector<char>& bytes, const std::string& file, const Simulation::State& s) {
+    Reader r(bytes, file);
+    Saved saved;
+    saved.steps = r.get<std::uint64_t>();
+    const std::size_t n = r.get_count(sizeof(std::uint32_t));
+    saved.bodies.resize(n);
+    for (std::uint32_t& t : saved.bodies.template_index) {
+        t = r.get<std::uint32_t>();
+        if (t >= s.templates.size()) r.broken();
+    }
+    saved.bodies.each_array([&](std::vector<double>& a) {
+        for (double& x : a) x = r.get<double>();
+    });
+    const std::size_t spring_count = r.get_count(sizeof(SavedSpring));
+    for (std::size_t k = 0; k < spring_count; ++k) {
+        saved.springs.push_back(r.get<SavedSpring>());
+        const SavedSpring& spring = saved.springs.back();
+        if (spring.i >= spring.j || spring.j >= n) r.broken();
+    }
+    const auto wall_count = r.get<std::uint64_t>();
+    if (wall_count != s.walls.size()) r.broken();
+    for (const detail::Wall& wall : s.walls) {
+        Saved::SavedWall w;
+        w.motion.point = r.get_vec(), w.motion.axis = r.get_vec(), w.motion.rotation_speed = r.get<double>(), w.motion.velocity = r.get_vec();
+        w.motion_start = r.get<std::uint64_t>();
+        if (w.motion_start > saved.steps) r.broken();
+        w.start_pose.position = r.get_vec(), w.start_pose.orientation = r.get_quat();
+        w.load.force = r.get_vec(), w.load.torque = r.get_vec();
+        const std::size_t count = r.get_count(12);
+        for (std::size_t k = 0; k < count; ++k) {
+            SavedHistory h{r.get<std::uint32_t>(), r.get<std::uint32_t>(), r.get<std::uint32_t>(), Vec3::Zero(), Vec3::Zero()};
+            h.normal = r.get_vec(), h.spring = r.get_vec();
+            if (h.body >= n || h.sphere >= s.templates[saved.bodies.template_index[h.body]].balls.size() || h.patch >= wall.mesh.patch_count) r.broken();
+            w.history.push_back(h);
+        }
+        saved.walls.push_back(std::move(w));
+    }
+    r.end();
+    for (std::size_t i = 0; i < n; ++i) {
+        const bool sound =
+            saved.bodies.position(i).allFinite() && std::abs(saved.bodies.orientation(i).norm() - 1.0) < 1e-6 && s.domain.contains(saved.bodies.position(i));
+        if (!sound) r.broken();
+    }
+    return saved;
+}
+
+/// Puts the springs back into freshly found candidates. False when one has no place.
+bool install(Simulation::State& s, const Saved& saved) {
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < s.pairs.records.size(); ++k) {
+        detail::PairRecord& record = s.pairs.records[k];
+        detail::PairBlock& block = s.pairs.blocks[k / detail::PairBlock::pairs_per_block];
+        if (next == saved.springs.size() || saved.springs[next].i != record.i || saved.springs[next].j != record.j) continue;
+        detail::refresh_candidates(block, record, s.templates[s.bodies.template_index[record.i]], s.templates[s.bodies.template_index[record.j]],
+                                   detail::relative_pose(s.kinematics[record.i], s.kinematics[record.j]), s.pairs.pair_skin);
+        for (std::size_t c = record.first; c < record.first + std::size_t{record.count} && next < saved.springs.size(); ++c) {
+            const SavedSpring& spring = saved.springs[next];
+            if (spring.i != record.i || spring.j != record.j || block.candidates[c].key() != ((spring.a << 16) | spring.b)) continue;
+            block.springs[c] = spring.spring;
+            block.candidates[c].a |= detail::Candidate::touching_bit;
+            ++next;
+        }
+    }
+    for (std::size_t k = 0; k < s.walls.size(); ++k)
+        for (const SavedHistory& h : saved.walls[k].history) {
+            detail::WallWatch& watch = s.walls[k].watches[h.body];
+            if (!watch.near) watch.near = std::make_unique<detail::NearWall>();
+            watch.near->history.push_back({h.sphere, h.patch, h.normal, h.spring});
+        }
+    return next == saved.springs.size();
+}
+
+}  // namespace
+
+void Simulation::save_checkpoint(const std::filesystem::path& file) const {
+    const std::vector<char> payload = payload_of(*state_);
+    const Header header{magic, version, 0, detail::fingerprint(state_->definition), payload.size(), checksum_of(payload)};
+    std::filesystem::path temporary = file;
+    temporary += ".part";
+    const auto fail = [&](const std::string& what) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        return bad_input("the checkpoint cannot be written: " + what, "check the folder, its permissions and the free space", {file.string()});
+    };
+    std::FILE* out = std::fopen(temporary.c_str(), "wb");
+    if (!out) throw fail(std::strerror(errno));
+    bool good = std::fwrite(&header, sizeof header, 1, out) == 1 && (payload.empty() || std::fwrite(payload.data(), payload.size(), 1, out) == 1);
+    good = std::fflush(out) == 0 && good;
+    good = good && fsync(fileno(out)) == 0;  // the data must be on disk before the name points to them
+    const int reason = errno;
+    good = std::fclose(out) == 0 && good;
+    if (!good) throw fail(std::strerror(reason));
+    std::error_code error;
+    std::filesystem::rename(temporary, file, error);
+    if (error) throw fail(error.message());
+}
+
+void Simulation::load_checkpoint(const std::filesystem::path& file) {
+    State& s = *state_;
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw bad_input("the checkpoint cannot be read", "check the path and its permissions", {file.string()});
+    Header header;
+    if (!in.read(reinterpret_cast<char*>(&header), sizeof header) || header.magic != magic)
+        throw bad_input("this is not a checkpoint of PelletLab", "give a file that a run wrote", {file.string()});
+    if (header.version != version)
+        throw bad_input("the checkpoint has format version " + std::to_string(header.version) + ", this program reads " + std::to_string(version),
+                        "go on with the program that wrote it", {file.string()});
+    if (header.fingerprint != detail::fingerprint(s.definition))
+        throw bad_input("the checkpoint belongs to another case", "templates, walls, materials, gravity and time step must be the same", {file.string()});
+    std::error_code error;
+    const auto size = std::filesystem::file_size(file, error);
+    if (error || size != sizeof header + header.payload_bytes)
+        throw bad_input("the checkpoint is cut off or has a tail", "it is damaged: use an older one", {file.string()});
+    std::vector<char> payload(static_cast<std::size_t>(header.payload_bytes));
+    if (!payload.empty() && !in.read(payload.data(), static_cast<std::streamsize>(payload.size())))
+        throw bad_input("the checkpoint is cut off", "it is damaged: use an older one", {file.string()});
+    if (checksum_of(payload) != header.checksum) throw bad_input("the checkpoint's checksum is wrong", "it is damaged: use an older one", {file.string()});
+    const Saved saved = read_payload(payload, file.string(), s);
+
+    s.steps = saved.steps;
+    s.bodies = saved.bodies;
+    for (std::size_t k = 0; k < s.walls.size(); ++k) {
+        detail::Wall& wall = s.walls[k];
+        wall.motion = saved.walls[k].motion;
+        wall.motion_start = saved.walls[k].motion_start;
+        wall.start_pose = saved.walls[k].start_pose;
+        wall.watches.clear();
+        detail::move_wall(wall, s.steps, s.definition.time_step);
+        s.wall_loads[k] = saved.walls[k].load;
+    }
+    const std::uint64_t rebuilds = s.pairs.rebuilds;
+    const double skin = s.pairs.skin, pair_skin = s.pairs.pair_skin;
+    s.pairs = {};
+    s.pairs.skin = skin, s.pairs.pair_skin = pair_skin, s.pairs.rebuilds = rebuilds;
+    s.fit_to_body_count();
+    for (std::size_t i = 0; i < s.bodies.size(); ++i) detail::fill_record(s.bodies, s.templates[s.bodies.template_index[i]], i, s.kinematics[i]);
+    detail::rebuild_pairs(s.pairs, s.bodies, s.templates);
+    s.view_is_current = false;
+    if (!install(s, saved)) throw bad_input("the checkpoint holds contacts of spheres that are far apart", "it is damaged: use an older one", {file.string()});
+}
+
+namespace detail {
+
+std::uint64_t fingerprint(const SimulationDefinition& d) {
+    Hash hash;
+    for (const RigidTemplate& t : d.templates) {
+        hash.add(static_cast<std::uint64_t>(t.spheres.size()));
+        for (const Sphere& s : t.spheres) hash.add(s.centre), hash.add(s.radius);
+        hash.add(t.mass_properties.mass);
+        hash.add(t.mass_properties.principal_inertia);
+    }
+    const auto add_material = [&](const ElasticMaterial& m) { hash.add(m.shear_modulus), hash.add(m.poisson_ratio); };
+    const auto add_contact = [&](const PairParameters& p) { hash.add(p.restitution), hash.add(p.sliding_friction), hash.add(p.rolling_friction); };
+    add_material(d.pellet_material);
+    add_contact(d.pellet_contact);
+    for (const WallDefinition& w : d.walls) {
+        hash.add(w.name);
+        hash.add(static_cast<std::uint64_t>(w.mesh.vertices.size()));
+        for (const Vec3& v : w.mesh.vertices) hash.add(v);
+        hash.add(static_cast<std::uint64_t>(w.mesh.faces.size()));
+        for (const Triangle& f : w.mesh.faces)
+            for (const std::uint32_t v : f) hash.add(std::uint64_t{v});
+        add_material(w.material);
+        add_contact(w.contact);
+        hash.add(w.feature_angle);
+    }
+    hash.add(d.gravity);
+    hash.add(d.time_step);
+    return hash.value();
+}
+
+}  // namespace detail
+
+}  // namespace pelletlab::solver

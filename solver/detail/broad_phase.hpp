@@ -1,0 +1,20 @@
+// Broad phase on bodies: pairs whose bounding spheres come closer than a skin, found with a uniform grid, sorted by (i, j).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/detail/bodies.hpp"
+
+namespace pelletlab::solver::detail {
+
+/// Compressed rows: partners of body i are partner[first[i]] … partner[first[i + 1] − 1], all larger than i, ascending.
+struct NeighbourRows {
+    std::vector<std::uint32_t> first{0};
+    std::vector<std::uint32_t> partner;
+};
+
+/// Pairs with |x_i − x_j| < R_i + R_j + skin. Bounding spheres are centred in the centres of mass, so rotation plays no role here.
+NeighbourRows find_neighbours(const Bodies& bodies, const std::vector<BodyTemplate>& templates, double skin);
+
+}  // namespace pelletlab::solver::detail

@@ -1,0 +1,89 @@
+// Everything a Simulation owns. The files of this room each work on a part of it.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "solver/detail/bodies.hpp"
+#include "solver/detail/kernels.hpp"
+#include "solver/detail/pair_contacts.hpp"
+#include "solver/detail/pair_list.hpp"
+#include "solver/detail/wall_contacts.hpp"
+#include "solver/simulation.hpp"
+
+namespace pelletlab::solver {
+
+struct Simulation::State {
+    explicit State(SimulationDefinition given);
+
+    SimulationDefinition definition;
+    std::vector<detail::BodyTemplate> templates;
+    detail::LawRow pellet_law;
+    const detail::Kernels* kernels = nullptr;
+    detail::WallSkins wall_skins;
+    Box domain;
+
+    std::uint64_t steps = 0;
+    detail::Bodies bodies;
+    std::vector<detail::Kinematic> kinematics;
+    detail::PairList pairs;
+    std::vector<detail::Wall> walls;
+    std::vector<WallLoad> wall_loads;
+
+    mutable BodyState view;  ///< filled when bodies() is asked for
+    mutable bool view_is_current = false;
+
+    double time() const { return static_cast<double>(steps) * definition.time_step; }
+
+    // The stages of a step, in their order; step.cpp.
+    void kick_and_drift_bodies();
+    void move_walls();
+    void find_neighbours_if_needed();
+    void compute_pair_forces(const detail::StepClock& clock);
+    void compute_wall_forces(const detail::StepClock& clock);
+    void gather_forces();
+    void kick_bodies();
+    void sum_wall_loads();
+
+    /// Forces and torques at the present instant, springs untouched: after bodies were added.
+    void look_at_forces();
+    void fit_to_body_count();
+};
+
+namespace detail {
+
+/// Constants of the contact law between two materials; Throws Error(bad_input) for values out of range, naming `what`.
+LawRow make_law_row(const ElasticMaterial& a, const ElasticMaterial& b, const PairParameters& contact, const std::string& what);
+
+/// Hash of everything in a definition that decides the future.
+std::uint64_t fingerprint(const SimulationDefinition& definition);
+
+/// 64-bit hash that runs over words.
+class Hash {
+public:
+    void add(std::uint64_t word) {
+        value_ = (value_ ^ word) * 0x9E3779B97F4A7C15ULL;
+        value_ ^= value_ >> 29;
+    }
+    void add(double number);
+    void add(const Vec3& v) {
+        for (int k = 0; k < 3; ++k) add(v[k]);
+    }
+    void add(const Quat& q) {
+        for (int k = 0; k < 4; ++k) add(q.coeffs()[k]);
+    }
+    void add(const std::string& text) {
+        add(static_cast<std::uint64_t>(text.size()));
+        for (const char c : text) add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+    }
+    std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_ = 0xCBF29CE484222325ULL;
+};
+
+}  // namespace detail
+
+}  // namespace pelletlab::solver

@@ -1,0 +1,93 @@
+// Contacts between bodies and one wall: cached nearby faces, cached sphere–face candidates, contact history, forces. Everything happens in the
+// wall's own frame, so a moving rigid wall needs no new search tree and its motion enters through relative pose and velocity only.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "solver/detail/pair_contacts.hpp"
+#include "solver/detail/wall_mesh.hpp"
+#include "solver/detail/wall_query.hpp"
+#include "solver/simulation.hpp"
+
+namespace pelletlab::solver::detail {
+
+/// History of one contact, keyed by sphere and patch; the frame is the wall's.
+struct WallHistory {
+    std::uint32_t sphere = 0, patch = 0;
+    Vec3 normal = Vec3::UnitZ();  ///< from the wall to the body, of the last step
+    Vec3 spring = Vec3::Zero();   ///< [m]
+};
+
+struct WallCandidate {
+    std::uint32_t sphere = 0, face = 0;
+};
+
+/// What a body near the wall keeps.
+struct NearWall {
+    std::vector<std::uint32_t> faces;       ///< near the body's bounding sphere
+    std::vector<WallCandidate> candidates;  ///< sorted by (sphere, face)
+    std::vector<WallHistory> history;       ///< sorted by (sphere, depth)
+    RelativePose reference{{0, 0, 0}, {1, 0, 0, 0}};
+    double allowance = -1.0;  ///< [m], as in pair_list.hpp
+};
+
+/// Where a body is against a wall.
+struct WallWatch {
+    double place[3] = {0, 0, 0};     ///< of the centre of mass when the faces were looked up, frame of the wall
+    double allowance = -1.0;         ///< [m] that it may move before they are looked up again
+    std::unique_ptr<NearWall> near;  ///< only where faces are near
+};
+
+/// What the wall exerts on one body.
+struct WallBodyLoad {
+    double force[3], torque[3];  ///< [N], [N m], on the body, world, about its centre of mass
+    double on_wall[3];           ///< [N m], torque of −force about the origin of the wall's frame, world
+};
+
+struct Wall {
+    Wall(const WallDefinition& definition, const LawRow& row);
+
+    std::string name;
+    WallMesh mesh;
+    WallQuery query;
+    LawRow law;
+    WallMotion motion;
+    std::uint64_t motion_start = 0;  ///< step at which `motion` began
+    Pose start_pose, pose;
+    Kinematic record;                ///< pose and velocity as contacts see them
+    std::vector<WallWatch> watches;  ///< one a body
+    std::vector<WallBodyLoad> loads;
+    std::vector<std::uint8_t> touching;
+    WallLoad load;  ///< sum over bodies
+};
+
+/// Places the wall where its motion has it after `step` steps of dt.
+void move_wall(Wall& wall, std::uint64_t step, double dt);
+
+/// How far lookups reach beyond what is needed now.
+struct WallSkins {
+    double faces = 0.0;       ///< [m]
+    double candidates = 0.0;  ///< [m]
+};
+
+/// Forces of the wall on bodies [begin, end).
+void wall_contact_forces(Wall& wall, std::size_t begin, std::size_t end, const std::vector<Kinematic>& kinematics, const Bodies& bodies,
+                         const std::vector<BodyTemplate>& templates, const WallSkins& skins, const Kernels& kernels, const StepClock& clock);
+
+/// Pose of body i in the frame of the wall.
+RelativePose pose_in_wall(const Kinematic& wall, const Kinematic& body);
+
+/// One contact of a body with a wall, frame of the wall.
+struct WallOverlap {
+    std::uint32_t sphere = 0, patch = 0;
+    Vec3 normal = Vec3::UnitZ();  ///< from the wall to the body
+    double overlap = 0.0;         ///< [m]
+};
+
+/// Contacts of one body, found without any cached list: for checks and reports. Appends to `overlaps`.
+void wall_overlaps(const Wall& wall, const Kinematic& body, const BodyTemplate& t, std::vector<WallOverlap>& overlaps);
+
+}  // namespace pelletlab::solver::detail

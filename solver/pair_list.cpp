@@ -1,0 +1,156 @@
+#include "solver/detail/pair_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "solver/detail/motion.hpp"
+
+namespace pelletlab::solver::detail {
+
+namespace {
+
+/// Copies candidates and springs of one record from its old block to the end of another.
+void carry_over(const PairBlock& from, const PairRecord& old, PairBlock& to, PairRecord& fresh) {
+    fresh = old;
+    fresh.first = static_cast<std::uint32_t>(to.candidates.size());
+    fresh.capacity = old.count;
+    to.candidates.insert(to.candidates.end(), from.candidates.begin() + old.first, from.candidates.begin() + old.first + old.count);
+    to.springs.insert(to.springs.end(), from.springs.begin() + old.first, from.springs.begin() + old.first + old.count);
+}
+
+/// Candidates of a pair and how far apart the nearest spheres are that are not candidates (at least).
+struct Search {
+    std::vector<Candidate> candidates;
+    double nearest_other = 0.0;
+};
+
+/// Sphere pairs closer than `skin`, sorted by (a, b). Gaps are looked at up to `reach` > skin.
+void search(const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& pose, double skin, double reach, Search& found) {
+    found.candidates.clear();
+    found.nearest_other = reach;
+    const Matrix3 r = matrix_of(pose.q[0], pose.q[1], pose.q[2], pose.q[3]);
+    thread_local std::vector<BodyTemplate::Ball> near_j;  // scratch
+    thread_local std::vector<std::uint16_t> index_j;
+    near_j.clear();
+    index_j.clear();
+    for (std::size_t b = 0; b < tj.balls.size(); ++b) {
+        const auto& s = tj.balls[b];
+        const double x = r.m[0][0] * s.x + r.m[0][1] * s.y + r.m[0][2] * s.z + pose.p[0];
+        const double y = r.m[1][0] * s.x + r.m[1][1] * s.y + r.m[1][2] * s.z + pose.p[1];
+        const double z = r.m[2][0] * s.x + r.m[2][1] * s.y + r.m[2][2] * s.z + pose.p[2];
+        const double limit = ti.bounding_radius + s.r + reach;
+        if (x * x + y * y + z * z < limit * limit) {
+            near_j.push_back({x, y, z, s.r});
+            index_j.push_back(static_cast<std::uint16_t>(b));
+        }
+    }
+    for (std::size_t a = 0; a < ti.balls.size(); ++a) {
+        const auto& s = ti.balls[a];
+        const double dx = s.x - pose.p[0], dy = s.y - pose.p[1], dz = s.z - pose.p[2];
+        const double limit = tj.bounding_radius + s.r + reach;
+        if (dx * dx + dy * dy + dz * dz >= limit * limit) continue;
+        for (std::size_t k = 0; k < near_j.size(); ++k) {
+            const auto& t = near_j[k];
+            const double ex = t.x - s.x, ey = t.y - s.y, ez = t.z - s.z;
+            const double d2 = ex * ex + ey * ey + ez * ez;
+            const double touch = s.r + t.r;
+            const double within = touch + found.nearest_other;
+            if (d2 >= within * within) continue;
+            if (d2 < (touch + skin) * (touch + skin)) {
+                found.candidates.push_back({static_cast<std::uint16_t>(a), index_j[k]});
+            } else {
+                found.nearest_other = std::min(found.nearest_other, std::sqrt(d2) - touch);
+            }
+        }
+    }
+}
+
+}  // namespace
+
+RelativePose relative_pose(const Kinematic& i, const Kinematic& j) {
+    const Matrix3 frame = matrix_of(i.q[0], i.q[1], i.q[2], i.q[3]);
+    const double d[3] = {j.p[0] - i.p[0], j.p[1] - i.p[1], j.p[2] - i.p[2]};
+    RelativePose pose;
+    for (int k = 0; k < 3; ++k) pose.p[k] = frame.m[0][k] * d[0] + frame.m[1][k] * d[1] + frame.m[2][k] * d[2];
+    const Quaternion turn = product({i.q[0], -i.q[1], -i.q[2], -i.q[3]}, {j.q[0], j.q[1], j.q[2], j.q[3]});
+    pose.q[0] = turn.w, pose.q[1] = turn.x, pose.q[2] = turn.y, pose.q[3] = turn.z;
+    return pose;
+}
+
+void refresh_candidates(PairBlock& block, PairRecord& record, const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& pose, double skin) {
+    thread_local Search found;  // scratch
+    thread_local std::vector<Spring> springs;
+    search(ti, tj, pose, skin, 6.0 * skin, found);
+    springs.assign(found.candidates.size(), Spring{});
+    std::size_t old = record.first;
+    const std::size_t old_end = record.first + record.count;
+    for (std::size_t k = 0; k < found.candidates.size(); ++k) {  // both lists are sorted by key
+        while (old < old_end && block.candidates[old].key() < found.candidates[k].key()) ++old;
+        if (old < old_end && block.candidates[old].key() == found.candidates[k].key()) {
+            springs[k] = block.springs[old];
+            found.candidates[k].a = block.candidates[old].a;
+        }
+    }
+    const std::size_t count = found.candidates.size();
+    if (count > record.capacity) {
+        const std::size_t capacity = std::min<std::size_t>((count + 3) / 4 * 4, 65535);
+        record.first = static_cast<std::uint32_t>(block.candidates.size());
+        record.capacity = static_cast<std::uint16_t>(capacity);
+        block.candidates.resize(record.first + capacity, Candidate{0, 0});
+        block.springs.resize(record.first + capacity);
+    }
+    std::copy(found.candidates.begin(), found.candidates.end(), block.candidates.begin() + record.first);
+    std::copy(springs.begin(), springs.end(), block.springs.begin() + record.first);
+    record.count = static_cast<std::uint16_t>(count);
+    for (int k = 0; k < 3; ++k) record.place[k] = static_cast<float>(pose.p[k]);
+    for (int k = 0; k < 4; ++k) record.turn[k] = static_cast<float>(pose.q[k]);
+    // The reference pose is kept in float: its rounding is taken off the allowance.
+    const double rounding = 2.5e-7 * (std::abs(pose.p[0]) + std::abs(pose.p[1]) + std::abs(pose.p[2]) + 4.0 * tj.largest_offset);
+    record.allowance = static_cast<float>(std::max(0.0, found.nearest_other * 0.999999 - rounding));
+}
+
+void rebuild_pairs(PairList& list, const Bodies& bodies, const std::vector<BodyTemplate>& templates) {
+    PairList old;
+    old.rows = std::move(list.rows);
+    old.records = std::move(list.records);
+    old.blocks = std::move(list.blocks);
+    list.rows = find_neighbours(bodies, templates, list.skin);
+    const std::size_t n = bodies.size(), pair_count = list.rows.partner.size();
+    const std::size_t grain = PairBlock::pairs_per_block;
+    list.records.assign(pair_count, {});
+    list.blocks.assign((pair_count + grain - 1) / grain, {});
+    list.loads.assign(pair_count, {});
+    list.touching.assign(pair_count, 0);
+
+    std::vector<std::uint32_t> owner(pair_count);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::uint32_t k = list.rows.first[i]; k < list.rows.first[i + 1]; ++k) owner[k] = static_cast<std::uint32_t>(i);
+    parallel_blocks(pair_count, grain, [&](std::size_t begin, std::size_t end) {
+        PairBlock& block = list.blocks[begin / grain];
+        for (std::size_t k = begin; k < end; ++k) {
+            PairRecord& record = list.records[k];
+            record.i = owner[k];
+            record.j = list.rows.partner[k];
+            if (record.i + 1 >= old.rows.first.size()) continue;
+            const auto from = old.rows.partner.begin() + old.rows.first[record.i], to = old.rows.partner.begin() + old.rows.first[record.i + 1];
+            const auto found = std::lower_bound(from, to, record.j);
+            if (found == to || *found != record.j) continue;
+            const auto index = static_cast<std::size_t>(found - old.rows.partner.begin());
+            carry_over(old.blocks[index / grain], old.records[index], block, record);
+        }
+    });
+
+    list.incoming_first.assign(n + 1, 0);
+    for (const std::uint32_t j : list.rows.partner) ++list.incoming_first[j + 1];
+    for (std::size_t j = 0; j < n; ++j) list.incoming_first[j + 1] += list.incoming_first[j];
+    list.incoming.resize(pair_count);
+    std::vector<std::uint32_t> next(list.incoming_first.begin(), list.incoming_first.end() - 1);
+    for (std::size_t k = 0; k < pair_count; ++k) list.incoming[next[list.rows.partner[k]]++] = static_cast<std::uint32_t>(k);
+
+    list.reference.resize(n);
+    for (std::size_t i = 0; i < n; ++i) list.reference[i] = bodies.position(i);
+    ++list.rebuilds;
+}
+
+}  // namespace pelletlab::solver::detail

@@ -1,0 +1,368 @@
+#include "solver/simulation.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "solver/detail/motion.hpp"
+#include "solver/detail/state.hpp"
+#include "solver/time_step.hpp"
+
+namespace pelletlab::solver {
+
+namespace {
+
+constexpr double overlap_allowed_at_start = 0.05;  ///< of the smallest sphere's radius
+constexpr std::size_t most_spheres = 32767;        ///< a candidate keeps its sphere in 15 bits
+
+void check_template(const RigidTemplate& t) {
+    const std::string what = "template «" + t.name + "»";
+    if (t.spheres.empty()) throw bad_input(what + " has no spheres", "make it with `pelletlab shape`");
+    if (t.spheres.size() > most_spheres) throw bad_input(what + " has more than 32767 spheres", "fit it with fewer spheres");
+    for (const Sphere& s : t.spheres)
+        if (!s.centre.allFinite() || !(s.radius > 0.0) || !std::isfinite(s.radius))
+            throw bad_input(what + " has a sphere without a positive radius or a finite centre", "make the template again");
+    const MassProperties& m = t.mass_properties;
+    const Vec3& i = m.principal_inertia;
+    if (!(m.mass > 0.0) || !std::isfinite(m.mass) || !(i.minCoeff() > 0.0) || !i.allFinite())
+        throw bad_input(what + " has no positive mass and moments of inertia", "make the template again");
+    for (int k = 0; k < 3; ++k)
+        if (i[k] > (i[(k + 1) % 3] + i[(k + 2) % 3]) * (1.0 + 1e-9))
+            throw bad_input(what + " has moments of inertia that no body can have: one is larger than the sum of the others", "make the template again");
+}
+
+void check_motion(const WallMotion& m, const std::string& wall) {
+    if (!m.point.allFinite() || !m.velocity.allFinite() || !std::isfinite(m.rotation_speed) || !(std::abs(m.axis.norm() - 1.0) < 1e-9))
+        throw bad_input("wall «" + wall + "»: its motion needs finite numbers and an axis of length 1", "correct the motion of the wall");
+}
+
+Box default_domain(const SimulationDefinition& d) {
+    Box box;
+    for (const WallDefinition& wall : d.walls) box.extend(bounding_box(wall.mesh));
+    if (box.isEmpty()) return {Vec3::Constant(-1e100), Vec3::Constant(1e100)};
+    const Vec3 margin = Vec3::Constant(box.diagonal().norm());
+    return {box.min() - margin, box.max() + margin};
+}
+
+/// Deepest overlap of two bodies against the smaller of their smallest radii.
+double deepest_overlap(const detail::Kinematic& a, const detail::BodyTemplate& ta, const detail::Kinematic& b, const detail::BodyTemplate& tb) {
+    const Pose pa{Vec3(a.p[0], a.p[1], a.p[2]), Quat(a.q[0], a.q[1], a.q[2], a.q[3])}, pb{Vec3(b.p[0], b.p[1], b.p[2]), Quat(b.q[0], b.q[1], b.q[2], b.q[3])};
+    double deepest = 0.0;
+    for (const auto& s : ta.balls) {
+        const Vec3 c = pb.to_body(pa.to_world({s.x, s.y, s.z}));
+        if (c.norm() > s.r + tb.bounding_radius) continue;
+        for (const auto& t : tb.balls) deepest = std::max(deepest, s.r + t.r - (c - Vec3(t.x, t.y, t.z)).norm());
+    }
+    return deepest / std::min(ta.smallest_radius, tb.smallest_radius);
+}
+
+std::string place(const Vec3& p) {
+    std::ostringstream text;
+    text << "(" << p.x() << ", " << p.y() << ", " << p.z() << ") m";
+    return text.str();
+}
+
+}  // namespace
+
+Simulation::State::State(SimulationDefinition given) : definition(std::move(given)) {
+    const SimulationDefinition& d = definition;
+    if (d.templates.empty()) throw bad_input("the simulation has no pellet template", "give it at least one");
+    for (const RigidTemplate& t : d.templates) check_template(t);
+    if (!(d.time_step > 0.0) || !std::isfinite(d.time_step)) throw bad_input("the time step must be positive", "see advise_time_step");
+    if (!d.gravity.allFinite()) throw bad_input("gravity must be finite", "correct it");
+    for (const double skin : {d.skins.bodies, d.skins.spheres, d.skins.wall_faces, d.skins.wall_candidates})
+        if (!(skin >= 0.0) || !std::isfinite(skin)) throw bad_input("search skins must be zero or positive", "leave them at 0 to have them chosen");
+    std::set<std::string> names;
+    for (const WallDefinition& w : d.walls) {
+        if (!names.insert(w.name).second) throw bad_input("two walls are called «" + w.name + "»", "give every wall its own name");
+        if (!(w.feature_angle >= 0.0 && w.feature_angle < M_PI))
+            throw bad_input("wall «" + w.name + "»: the feature angle must be in [0, pi)", "30 degrees is usual");
+        check_motion(w.motion, w.name);
+    }
+    const TimeStepAdvice advice = advise_time_step(d);
+    if (d.time_step > advice.contact_limit) {
+        std::ostringstream text;
+        text << "a time step of " << d.time_step << " s is unstable: " << advice.percent_of_limit(d.time_step) << " % of the limit " << advice.contact_limit
+             << " s set by " << advice.limited_by;
+        throw bad_input(text.str(), "use a smaller step; a third of the limit is a usual choice");
+    }
+    double largest = 0.0;
+    for (const RigidTemplate& t : d.templates) {
+        templates.push_back(detail::make_body_template(t));
+        largest = std::max(largest, templates.back().bounding_radius);
+    }
+    pellet_law = detail::make_law_row(d.pellet_material, d.pellet_material, d.pellet_contact, "pellet-pellet");
+    kernels = &detail::best_kernels();
+    pairs.skin = d.skins.bodies > 0.0 ? d.skins.bodies : 0.15 * largest;
+    pairs.pair_skin = d.skins.spheres > 0.0 ? d.skins.spheres : 0.02 * largest;
+    wall_skins.faces = d.skins.wall_faces > 0.0 ? d.skins.wall_faces : 0.25 * largest;
+    wall_skins.candidates = d.skins.wall_candidates > 0.0 ? d.skins.wall_candidates : 0.02 * largest;
+    walls.reserve(d.walls.size());
+    for (const WallDefinition& w : d.walls) walls.emplace_back(w, detail::make_law_row(d.pellet_material, w.material, w.contact, "pellet-" + w.name));
+    wall_loads.resize(walls.size());
+    domain = d.domain.isEmpty() ? default_domain(d) : d.domain;
+    fit_to_body_count();
+}
+
+void Simulation::State::fit_to_body_count() {
+    const std::size_t n = bodies.size();
+    kinematics.resize(n);
+    for (detail::Wall& wall : walls) {
+        wall.watches.resize(n);
+        wall.loads.resize(n);
+        wall.touching.resize(n, 0);
+    }
+    if (pairs.reference.size() != n) {
+        pairs.reference.clear();
+        detail::rebuild_pairs(pairs, bodies, templates);
+    }
+}
+
+Simulation::Simulation(SimulationDefinition definition) : state_(std::make_unique<State>(std::move(definition))) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+void Simulation::add_bodies(std::span<const BodyPlacement> added) {
+    State& s = *state_;
+    const std::size_t before = s.bodies.size(), n = before + added.size();
+    for (const BodyPlacement& b : added) {
+        if (b.template_index >= s.templates.size()) throw bad_input("a body has a template that does not exist", "use an index into the templates");
+        if (!b.pose.position.allFinite() || !b.velocity.allFinite() || !b.spin.allFinite() || !(std::abs(b.pose.orientation.norm() - 1.0) < 1e-6))
+            throw bad_input("a body has a pose or velocity that is not finite, or an orientation that is no unit quaternion", "correct the placement");
+        if (!s.domain.contains(b.pose.position))
+            throw bad_input("a body starts outside the domain, at " + place(b.pose.position), "place it inside or enlarge the domain");
+    }
+    const auto shrink = [&s](std::size_t count) {
+        s.bodies.resize(count);
+        s.fit_to_body_count();
+    };
+    s.bodies.resize(n);
+    for (std::size_t k = 0; k < added.size(); ++k) {
+        const BodyPlacement& b = added[k];
+        const std::size_t i = before + k;
+        detail::Bodies& all = s.bodies;
+        const detail::BodyTemplate& t = s.templates[b.template_index];
+        const Quat q = b.pose.orientation.normalized();
+        const Vec3 l = detail::angular_momentum_of(t, q, b.spin);
+        all.template_index[i] = b.template_index;
+        all.px[i] = b.pose.position.x(), all.py[i] = b.pose.position.y(), all.pz[i] = b.pose.position.z();
+        all.qw[i] = q.w(), all.qx[i] = q.x(), all.qy[i] = q.y(), all.qz[i] = q.z();
+        all.vx[i] = b.velocity.x(), all.vy[i] = b.velocity.y(), all.vz[i] = b.velocity.z();
+        all.lx[i] = l.x(), all.ly[i] = l.y(), all.lz[i] = l.z();
+    }
+    s.fit_to_body_count();
+    for (std::size_t i = 0; i < n; ++i) detail::fill_record(s.bodies, s.templates[s.bodies.template_index[i]], i, s.kinematics[i]);
+
+    for (const detail::PairRecord& pair : s.pairs.records) {
+        if (pair.j < before) continue;
+        const double ratio = deepest_overlap(s.kinematics[pair.i], s.templates[s.bodies.template_index[pair.i]], s.kinematics[pair.j],
+                                             s.templates[s.bodies.template_index[pair.j]]);
+        if (ratio <= overlap_allowed_at_start) continue;
+        std::ostringstream text;
+        text << "bodies " << pair.i << " and " << pair.j << " overlap by " << 100.0 * ratio << " % of their smallest sphere's radius, near "
+             << place(s.bodies.position(pair.j));
+        shrink(before);
+        throw bad_input(text.str(), "place bodies apart: at most 5 % is allowed");
+    }
+    std::vector<detail::WallOverlap> overlaps;
+    for (const detail::Wall& wall : s.walls)
+        for (std::size_t i = before; i < n; ++i) {
+            const detail::BodyTemplate& t = s.templates[s.bodies.template_index[i]];
+            overlaps.clear();
+            detail::wall_overlaps(wall, s.kinematics[i], t, overlaps);
+            for (const detail::WallOverlap& o : overlaps) {
+                const double ratio = o.overlap / t.smallest_radius;
+                if (ratio <= overlap_allowed_at_start) continue;
+                std::ostringstream text;
+                text << "body " << i << " overlaps wall «" << wall.name << "» by " << 100.0 * ratio << " % of its smallest sphere's radius, near "
+                     << place(s.bodies.position(i));
+                shrink(before);
+                throw bad_input(text.str(), "place bodies apart: at most 5 % is allowed");
+            }
+        }
+    s.look_at_forces();
+}
+
+void Simulation::set_wall_motion(std::size_t index, const WallMotion& motion) {
+    State& s = *state_;
+    if (index >= s.walls.size()) throw bad_input("there is no wall with index " + std::to_string(index), "see definition().walls");
+    detail::Wall& wall = s.walls[index];
+    check_motion(motion, wall.name);
+    wall.motion = motion;
+    wall.motion_start = s.steps;
+    wall.start_pose = wall.pose;
+    detail::move_wall(wall, s.steps, s.definition.time_step);
+}
+
+double Simulation::time() const {
+    return state_->time();
+}
+
+std::uint64_t Simulation::step_count() const {
+    return state_->steps;
+}
+
+const SimulationDefinition& Simulation::definition() const {
+    return state_->definition;
+}
+
+const BodyState& Simulation::bodies() const {
+    const State& s = *state_;
+    if (!s.view_is_current) {
+        const std::size_t n = s.bodies.size();
+        BodyState& v = s.view;
+        v.template_index = s.bodies.template_index;
+        v.position.resize(n), v.orientation.resize(n), v.velocity.resize(n), v.spin.resize(n), v.force.resize(n), v.torque.resize(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            v.position[i] = s.bodies.position(i);
+            v.orientation[i] = s.bodies.orientation(i);
+            v.velocity[i] = s.bodies.velocity(i);
+            v.spin[i] = detail::spin_of(s.templates[s.bodies.template_index[i]], v.orientation[i], s.bodies.angular_momentum(i));
+            v.force[i] = s.bodies.force(i);
+            v.torque[i] = s.bodies.torque(i);
+        }
+        s.view_is_current = true;
+    }
+    return s.view;
+}
+
+std::vector<Pose> Simulation::wall_poses() const {
+    std::vector<Pose> poses;
+    for (const detail::Wall& wall : state_->walls) poses.push_back(wall.pose);
+    return poses;
+}
+
+const std::vector<WallLoad>& Simulation::wall_loads() const {
+    return state_->wall_loads;
+}
+
+std::vector<WallReport> Simulation::wall_reports() const {
+    std::vector<WallReport> reports;
+    for (const detail::Wall& wall : state_->walls) reports.push_back(wall.mesh.report);
+    return reports;
+}
+
+std::uint64_t Simulation::neighbour_rebuilds() const {
+    return state_->pairs.rebuilds;
+}
+
+std::vector<ContactPoint> Simulation::contact_points() const {
+    const State& s = *state_;
+    std::vector<ContactPoint> points;
+    for (std::size_t k = 0; k < s.pairs.records.size(); ++k) {
+        const detail::PairRecord& r = s.pairs.records[k];
+        const detail::PairBlock& block = s.pairs.blocks[k / detail::PairBlock::pairs_per_block];
+        const Pose pi{s.bodies.position(r.i), s.bodies.orientation(r.i)}, pj{s.bodies.position(r.j), s.bodies.orientation(r.j)};
+        const auto &ti = s.templates[s.bodies.template_index[r.i]], &tj = s.templates[s.bodies.template_index[r.j]];
+        for (std::size_t c = r.first; c < r.first + std::size_t{r.count}; ++c) {
+            const detail::Candidate& candidate = block.candidates[c];
+            const auto &a = ti.balls[candidate.sphere_a()], &b = tj.balls[candidate.b];
+            const Vec3 d = pj.to_world({b.x, b.y, b.z}) - pi.to_world({a.x, a.y, a.z});
+            const double overlap = a.r + b.r - d.norm();
+            if (overlap <= 0.0) continue;
+            const detail::Spring& spring = block.springs[c];
+            points.push_back({r.i, candidate.sphere_a(), -1, r.j, candidate.b, d.normalized(), overlap, pi.orientation * Vec3(spring.x, spring.y, spring.z)});
+        }
+    }
+    std::vector<detail::WallOverlap> overlaps;
+    for (std::size_t w = 0; w < s.walls.size(); ++w)
+        for (std::uint32_t i = 0; i < s.bodies.size(); ++i) {
+            const detail::WallWatch& watch = s.walls[w].watches[i];
+            if (!watch.near) continue;
+            overlaps.clear();
+            detail::wall_overlaps(s.walls[w], s.kinematics[i], s.templates[s.bodies.template_index[i]], overlaps);
+            for (const detail::WallOverlap& o : overlaps) {
+                ContactPoint point{i, o.sphere, static_cast<std::int32_t>(w), 0, 0, s.walls[w].pose.orientation * o.normal, o.overlap, Vec3::Zero()};
+                for (const detail::WallHistory& h : watch.near->history)
+                    if (h.sphere == o.sphere && h.patch == o.patch && h.normal.dot(o.normal) > 0.999) point.spring = s.walls[w].pose.orientation * h.spring;
+                points.push_back(point);
+            }
+        }
+    return points;
+}
+
+ContactSummary Simulation::contacts() const {
+    const State& s = *state_;
+    ContactSummary sum;
+    std::uint64_t last_pair = UINT64_MAX;
+    for (const ContactPoint& c : contact_points()) {
+        const auto& ti = s.templates[s.bodies.template_index[c.body_i]];
+        double radius = ti.balls[c.sphere_i].r;
+        if (c.wall >= 0) {
+            ++sum.wall_contacts;
+        } else {
+            ++sum.sphere_contacts;
+            radius = std::min(radius, s.templates[s.bodies.template_index[c.body_j]].balls[c.sphere_j].r);
+            const std::uint64_t pair = (std::uint64_t{c.body_i} << 32) | c.body_j;
+            if (pair != last_pair) ++sum.touching_pairs;
+            last_pair = pair;
+        }
+        sum.largest_overlap_ratio = std::max(sum.largest_overlap_ratio, c.overlap / radius);
+    }
+    return sum;
+}
+
+EnergyReport Simulation::energy() const {
+    const State& s = *state_;
+    EnergyReport e;
+    for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+        const detail::BodyTemplate& t = s.templates[s.bodies.template_index[i]];
+        const Vec3 l = s.bodies.angular_momentum(i);
+        e.kinetic_translation += 0.5 * t.mass * s.bodies.velocity(i).squaredNorm();
+        e.kinetic_rotation += 0.5 * l.dot(detail::spin_of(t, s.bodies.orientation(i), l));
+        e.gravity -= t.mass * s.definition.gravity.dot(s.bodies.position(i));
+    }
+    return e;
+}
+
+std::uint64_t Simulation::state_hash() const {
+    const State& s = *state_;
+    detail::Hash hash;
+    hash.add(s.steps);
+    for (const std::uint32_t t : s.bodies.template_index) hash.add(std::uint64_t{t});
+    s.bodies.each_array([&](const std::vector<double>& a) {
+        for (const double x : a) hash.add(x);
+    });
+    for (std::size_t k = 0; k < s.pairs.records.size(); ++k) {
+        const detail::PairRecord& r = s.pairs.records[k];
+        const detail::PairBlock& block = s.pairs.blocks[k / detail::PairBlock::pairs_per_block];
+        for (std::size_t c = r.first; c < r.first + std::size_t{r.count}; ++c) {
+            if (!block.candidates[c].touching()) continue;
+            hash.add((std::uint64_t{r.i} << 32) | r.j);
+            hash.add(std::uint64_t{block.candidates[c].key()});
+            for (const double x : {block.springs[c].x, block.springs[c].y, block.springs[c].z}) hash.add(x);
+        }
+    }
+    for (const detail::Wall& wall : s.walls) {
+        hash.add(wall.pose.position);
+        hash.add(wall.pose.orientation);
+        hash.add(wall.motion.point);
+        hash.add(wall.motion.axis);
+        hash.add(wall.motion.rotation_speed);
+        hash.add(wall.motion.velocity);
+        for (std::size_t i = 0; i < wall.watches.size(); ++i) {
+            if (!wall.watches[i].near) continue;
+            for (const detail::WallHistory& h : wall.watches[i].near->history) {
+                hash.add((std::uint64_t{i} << 32) | h.sphere);
+                hash.add(std::uint64_t{h.patch});
+                hash.add(h.normal);
+                hash.add(h.spring);
+            }
+        }
+    }
+    return hash.value();
+}
+
+namespace detail {
+
+void Hash::add(double number) {
+    add(std::bit_cast<std::uint64_t>(number));
+}
+
+}  // namespace detail
+
+}  // namespace pelletlab::solver
