@@ -234,23 +234,23 @@ double parse_quantity(std::string_view whole_text, Dimension expected) {
     return *decimal_number * unit.factor;
 }
 
-std::string format_quantity(double si_value, std::string_view unit_text) {
+std::string format_quantity(double value_in_si, std::string_view unit_text) {
     const ParsedUnit unit = parse_unit(trimmed(unit_text), {});
     const std::string suffix = unit_text.empty() ? "" : " " + std::string(unit_text);
     if (unit.factor == 1.0) {
-        const std::string text = shortest_text(si_value, unit.decimal);
+        const std::string text = shortest_text(value_in_si, unit.decimal);
         double ignored = 0.0;
         if (std::from_chars(text.data(), text.data() + text.size(), ignored).ec == std::errc()) return text + suffix;  // else outside the range of a double
     }
-    const double number = power_of_ten_times(si_value / unit.factor, -unit.decimal);
+    const double number = power_of_ten_times(value_in_si / unit.factor, -unit.decimal);
     for (int digits = 6; digits <= 17 && std::isfinite(number); ++digits) {
         char buffer[40];
         const auto end = std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::general, digits).ptr;
         const auto back = shifted({buffer, static_cast<std::size_t>(end - buffer)}, unit.decimal);
-        if (back && *back * unit.factor == si_value) return std::string(buffer, end) + suffix;
+        if (back && *back * unit.factor == value_in_si) return std::string(buffer, end) + suffix;
     }
     const std::string si = si_unit(unit.dimension);
-    return shortest_text(si_value, 0) + (si.empty() ? "" : " " + si);
+    return shortest_text(value_in_si, 0) + (si.empty() ? "" : " " + si);
 }
 
 std::string si_unit(Dimension dimension) {

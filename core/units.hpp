@@ -43,7 +43,7 @@ double unit_factor(std::string_view unit, Dimension expected);
 
 /// «3.12 mm» for (0.00312, "mm"): the shortest text that parse_quantity turns into the same double; in SI units where `unit` has no such text
 /// (that happens to units that are no power of ten of SI, such as rpm, and near the ends of the range of a double).
-std::string format_quantity(double si_value, std::string_view unit);
+std::string format_quantity(double value_in_si, std::string_view unit);
 
 /// The SI unit of a dimension in words of this reader, for instance «kg/m^3»; empty for a plain number.
 std::string si_unit(Dimension dimension);

@@ -140,7 +140,7 @@ std::vector<CaseKey> make_keys() {
     add(in(length, "mm", within(from(0), key("tube.height", PELLETLAB_MEMBER(c.tube.height), "Height; 0: high enough for the pellets to be inserted."))));
     add(within(from_to(8, 4096), key("tube.facets", PELLETLAB_MEMBER(c.tube.facets), "Flat facets of the round shell.")));
     add(key("tube.mesh_file", PELLETLAB_MEMBER(c.tube.mesh_file), "Mesh of shell and floor to use instead of the round tube; empty: none."));
-    add(key("tube.mesh_unit", PELLETLAB_MEMBER(c.tube.mesh_unit), "Length unit of mesh_file (an STL file does not tell): mm, m, in, …"));
+    add(key("tube.mesh_unit", PELLETLAB_MEMBER(c.tube.mesh_unit), "Length unit of mesh_file (an STL file does not tell): mm, m, in and so on."));
     add(key("tube.material", PELLETLAB_MEMBER(c.tube.material), "Material of shell and floor: a table [materials.<name>]."));
 
     add(in(length, "mm", within(above(0), key("drum.diameter", PELLETLAB_MEMBER(c.drum.diameter), "Inner diameter."))));
@@ -154,7 +154,7 @@ std::vector<CaseKey> make_keys() {
     add(within(from_to(8, 4096), key("drum.facets", PELLETLAB_MEMBER(c.drum.facets), "Flat facets of the round shell.")));
     add(key("drum.end_plates_rotate", PELLETLAB_MEMBER(c.drum.end_plates_rotate), "End plates turn with the shell, or stand still."));
     add(key("drum.mesh_file", PELLETLAB_MEMBER(c.drum.mesh_file), "Mesh to use instead of the round drum; empty: none."));
-    add(key("drum.mesh_unit", PELLETLAB_MEMBER(c.drum.mesh_unit), "Length unit of mesh_file (an STL file does not tell): mm, m, in, …"));
+    add(key("drum.mesh_unit", PELLETLAB_MEMBER(c.drum.mesh_unit), "Length unit of mesh_file (an STL file does not tell): mm, m, in and so on."));
     add(key("drum.material", PELLETLAB_MEMBER(c.drum.material), "Material of shell and end plates: a table [materials.<name>]."));
 
     add(within(above_to(0, 0.5), key("insertion.packing_fraction", PELLETLAB_MEMBER(c.insertion.packing_fraction),

@@ -61,7 +61,8 @@ std::string rounded(double value, const char* format) {
 std::string header_text(const ClumpTemplate& clump) {
     const FitQuality& q = clump.quality;
     std::string text = "# Clump template of pelletlab: " + std::to_string(clump.rigid.spheres.size()) + " spheres, bounding radius " +
-                       rounded(clump.rigid.bounding_radius * 1e3, "%.4f") + " mm, mass " + rounded(clump.rigid.mass_properties.mass * 1e6, "%.3f") + " mg\n";
+                       rounded(bounding_radius(clump.rigid.spheres) * 1e3, "%.4f") + " mm, mass " + rounded(clump.rigid.mass_properties.mass * 1e6, "%.3f") +
+                       " mg\n";
     if (!std::isfinite(q.volume_error)) return text;
     text += "# Union of the spheres against the body: volume " + rounded(q.volume_error * 100.0, "%+.3f") + " %, symmetric difference " +
             rounded(q.symmetric_difference * 100.0, "%.3f") + " %, centre off by " + rounded(q.centre_offset * 1e3, "%.5f") + " mm,\n";
@@ -330,7 +331,9 @@ ClumpTemplate parse_clump(const std::string& text, const std::string& file) {
 }
 
 void write_clump(const ClumpTemplate& clump, const std::filesystem::path& file) {
-    write_text(file, clump_text(clump));
+    const std::string text = clump_text(clump);
+    parse_clump(text, file.string());  // a clump that could not be read back is told now, not when it is needed
+    write_text(file, text);
 }
 
 ClumpTemplate read_clump(const std::filesystem::path& file) {
