@@ -36,13 +36,17 @@ private:
     /// Pseudonormals of one triangle's three corners, three sides and inside: a unit vector, or on sides and corners a positive multiple.
     using FaceNormals = std::array<Vec3, 7>;
 
+    /// The corner or side of the triangle that the point lies on within rounding, else its inside.
+    std::size_t feature_at(std::uint32_t face, const Vec3& p) const;
+
+    TriangleMesh mesh_;
     detail::TriangleTree tree_;
     std::vector<FaceNormals> normals_;
     double error_bound_ = 0.0;
     double on_surface_ = 0.0;  ///< [m], closer than this the direction to the nearest point is noise
 };
 
-ExactDistance::ExactDistance(const TriangleMesh& mesh) : tree_((require_two_sided(mesh), mesh)), normals_(mesh.faces.size()) {
+ExactDistance::ExactDistance(const TriangleMesh& mesh) : mesh_((require_two_sided(mesh), mesh)), tree_(mesh), normals_(mesh.faces.size()) {
     std::vector<Vec3> at_vertex(mesh.vertices.size(), Vec3::Zero());
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         const Vec3 a = mesh.corner(f, 0), b = mesh.corner(f, 1), c = mesh.corner(f, 2);
@@ -66,13 +70,23 @@ ExactDistance::ExactDistance(const TriangleMesh& mesh) : tree_((require_two_side
     on_surface_ = error_bound_;
 }
 
+std::size_t ExactDistance::feature_at(std::uint32_t face, const Vec3& p) const {
+    for (int k = 0; k < 3; ++k)
+        if ((p - mesh_.corner(face, k)).norm() <= 2.0 * on_surface_) return static_cast<std::size_t>(k);
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 a = mesh_.corner(face, k), side = mesh_.corner(face, (k + 1) % 3) - a;
+        if (side.cross(p - a).norm() <= 2.0 * on_surface_ * side.norm()) return static_cast<std::size_t>(3 + k);
+    }
+    return 6;
+}
+
 DistanceSample ExactDistance::sample(const Vec3& p) const {
     const detail::NearestPoint nearest = tree_.nearest(p);
     const Vec3& normal = normals_[nearest.face][static_cast<std::size_t>(nearest.feature)];
     const Vec3 offset = p - nearest.point;
     const double distance = std::sqrt(nearest.squared_distance);
     const double sign = offset.dot(normal) < 0.0 ? -1.0 : 1.0;
-    if (distance <= on_surface_) return {sign * distance, normal};
+    if (distance <= on_surface_) return {sign * distance, normals_[nearest.face][feature_at(nearest.face, p)]};
     return {sign * distance, offset * (sign / offset.norm())};
 }
 

@@ -47,11 +47,15 @@ std::size_t face_count(std::uint32_t count, const std::vector<CapRing>& rings) {
 std::vector<Vec3> unit_circle(std::uint32_t count, double phase) {
     std::vector<Vec3> points(count);
     for (std::uint32_t k = 0; k < count; ++k) {
-        // The quadrant is taken out first, so that a circle of 4n points is symmetric to the last bit.
-        const double turns = 4.0 * (k + phase) / count;
-        const double quadrant = std::floor(turns);
-        const double angle = 0.5 * std::numbers::pi * (turns - quadrant);
+        // Whole octants are taken out first, so that a circle of 8n points is symmetric to the last bit (of 4n points about both axes).
+        const double steps = 4.0 * (k + phase);  // a quadrant has `count` of them
+        const double quadrant = std::floor(steps / count);
+        const double rest = steps - quadrant * count;
+        const bool upper_octant = 2.0 * rest > count;
+        const double angle = 0.5 * std::numbers::pi * (upper_octant ? count - rest : rest) / count;
         double c = std::cos(angle), s = std::sin(angle);
+        if (upper_octant) std::swap(c, s);
+        if (2.0 * rest == count) s = c;
         for (int turn = 0; turn < static_cast<int>(quadrant) % 4; ++turn) {
             const double old_c = c;
             c = -s;
