@@ -70,36 +70,46 @@ TriangleMesh read_mesh(const Storage& file, const std::string& prefix, const std
 
 void write_shape(Storage& file, std::size_t index, const PelletShape& shape) {
     const MassProperties& m = shape.rigid.mass_properties;
-    std::vector<double> spheres, mass{m.volume, m.density, m.mass};
+    const auto write = [&](const char* member, const std::vector<double>& row, const char* unit) {
+        file.write(numbered("shapes", index, member), row, row.size(), unit);
+    };
+    std::vector<double> spheres;
     for (const Sphere& sphere : shape.rigid.spheres) {
         push(spheres, sphere.centre);
         spheres.push_back(sphere.radius);
     }
-    push(mass, m.centre_of_mass_mesh);
-    push(mass, m.principal_axes);
-    push(mass, m.principal_inertia);
-    mass.push_back(shape.rigid.bounding_radius);
+    const Quat& q = m.principal_axes;
     file.write_text(numbered("shapes", index, "name"), shape.rigid.name);
     file.write(numbered("shapes", index, "spheres"), spheres, 4, "m");
-    file.write(numbered("shapes", index, "mass_properties"), mass, mass.size(), "m^3, kg/m^3, kg, m (3), 1 (4), kg*m^2 (3), m");
+    write("bounding_radius", {shape.rigid.bounding_radius}, "m");
+    write("volume", {m.volume}, "m^3");
+    write("density", {m.density}, "kg/m^3");
+    write("mass", {m.mass}, "kg");
+    write("centre_of_mass_mesh", {m.centre_of_mass_mesh[0], m.centre_of_mass_mesh[1], m.centre_of_mass_mesh[2]}, "m");
+    write("principal_axes", {q.w(), q.x(), q.y(), q.z()}, "1");
+    write("principal_inertia", {m.principal_inertia[0], m.principal_inertia[1], m.principal_inertia[2]}, "kg*m^2");
     write_mesh(file, numbered("shapes", index, "surface_"), shape.surface_body);
 }
 
 PelletShape read_shape(const Storage& file, std::size_t index, const std::string& name) {
+    const auto row = [&](const char* member, std::size_t columns) {
+        auto numbers = file.numbers(numbered("shapes", index, member), columns);
+        if (numbers.size() != columns)
+            throw bad_input("the entry '" + numbered("shapes", index, member) + "' is missing", "the file is damaged: make it again", {name});
+        return numbers;
+    };
     PelletShape shape;
     shape.rigid.name = file.text(numbered("shapes", index, "name"));
     const auto spheres = file.numbers(numbered("shapes", index, "spheres"), 4);
     for (std::size_t i = 0; i < spheres.size(); i += 4) shape.rigid.spheres.push_back({vector_at(spheres, i), spheres[i + 3]});
-    const auto mass = file.numbers(numbered("shapes", index, "mass_properties"), 14);
-    if (mass.size() != 14) throw bad_input("shape " + std::to_string(index) + " has no mass properties", "the file is damaged: make it again", {name});
+    shape.rigid.bounding_radius = row("bounding_radius", 1)[0];
     MassProperties& m = shape.rigid.mass_properties;
-    m.volume = mass[0];
-    m.density = mass[1];
-    m.mass = mass[2];
-    m.centre_of_mass_mesh = vector_at(mass, 3);
-    m.principal_axes = quaternion_at(mass, 6);
-    m.principal_inertia = vector_at(mass, 10);
-    shape.rigid.bounding_radius = mass[13];
+    m.volume = row("volume", 1)[0];
+    m.density = row("density", 1)[0];
+    m.mass = row("mass", 1)[0];
+    m.centre_of_mass_mesh = vector_at(row("centre_of_mass_mesh", 3), 0);
+    m.principal_axes = quaternion_at(row("principal_axes", 4), 0);
+    m.principal_inertia = vector_at(row("principal_inertia", 3), 0);
     shape.surface_body = read_mesh(file, numbered("shapes", index, "surface_"), name);
     return shape;
 }
