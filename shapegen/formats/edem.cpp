@@ -28,9 +28,9 @@ std::vector<FormatFile> write(const ClumpTemplate& clump, const WriteOptions& op
     const Vec3 inertia = mass.principal_inertia;
     std::string note =
         header_line(clump, units) +
-        "\nPaste the rows of the other file into the sphere table of a Multi-Sphere particle (help.altair.com/edem, «Add Multi-Sphere Particles»).\n"
+        "\nPaste the rows of the other file into the sphere table of a Multi-Sphere particle (help.altair.com/edem, Add Multi-Sphere Particles).\n"
         "The manual does not state the order of the columns: compare them with the table on the screen, and its length unit with the header.\n"
-        "Then enter these on the particle's Properties instead of «Calculate Properties» (which integrates the union of spheres):\n";
+        "Then enter these on the particle's Properties instead of Calculate Properties (which integrates the union of spheres):\n";
     note += "mass " + exact(mass.mass) + " kg\nvolume " + exact(mass.volume) + " m^3\nmoment of inertia X " + exact(inertia[0]) +
             " kg*m^2\nmoment of inertia Y " + exact(inertia[1]) + " kg*m^2\nmoment of inertia Z " + exact(inertia[2]) + " kg*m^2\n";
     return {{name + ".edem.txt", text}, {name + ".edem.note.txt", note}};

@@ -1,7 +1,8 @@
 // LAMMPS molecule file (command «molecule», fix rigid/small with keyword mol): Coords, Types, Diameters, Masses and the body's own mass, com, inertia.
-// The header values override what LAMMPS would sum over overlapping spheres. Two traps:
+// The header values override what LAMMPS would sum over overlapping spheres. Three traps:
 // - until May 2020 (issue #1657, fixed by #2105) fix rigid/nve treated moments below 1e-6 as zero: a 3 mm pellet in «units si» (5e-11 kg m²) never turned.
 //   Use a newer LAMMPS, fix rigid/small, or an export in cm and g («units cgs», 5e-4).
+// - fix rigid/small recomputes all bodies from their atoms at every «run» unless it has «reinit no» (seen with version 20220106 by the crosscode test).
 // - the manual gives the order Ixx Iyy Izz Ixy Ixz Iyz, src/molecule.cpp has read the last three as yz, xz, xy: in principal axes they are zero.
 #include "core/error.hpp"
 #include "shapegen/formats/detail/entries.hpp"
@@ -47,16 +48,19 @@ std::vector<FormatFile> write(const ClumpTemplate& clump, const WriteOptions& op
     }
     text += "\nCoords\n\n" + coords + "\nTypes\n\n" + types + "\nDiameters\n\n" + diameters + "\nMasses\n\n" + masses;
 
-    std::string script = "# " + header_line(clump, units) + "\n# In a script with «units " + system +
-                         "» and «atom_style hybrid sphere molecular» (or sphere + fix property/atom mol).\n";
+    std::string script = "# " + header_line(clump, units) + "\n# In a script with 'units " + system +
+                         "' and 'atom_style hybrid sphere molecular' (or sphere + fix property/atom mol).\n";
     if (inertia.minCoeff() < 1e-6)
         script +=
             "# WARNING: moments of inertia below 1e-6 in these units. fix rigid/nve and its relatives of LAMMPS before June 2020 take them for zero and never\n"
             "# turn the body (LAMMPS issue 1657, fixed by 2105): use a newer version, or export with length unit cm and mass unit g (units cgs).\n";
-    script += "molecule " + name + ' ' + file + "\nfix rigid_" + name + " all rigid/small molecule mol " + name + "\n";
-    script += "# then insert with: fix … deposit … mol " + name + " rigid rigid_" + name +
-              " …  (or fix pour); only bodies inserted so take mass, com and inertia from the file;\n"
-              "# bodies that exist before the fix get those of the separate spheres, overlaps counted, unless its keyword infile gives them.\n";
+    script += "molecule " + name + ' ' + file + "\nfix rigid_" + name + " all rigid/small molecule mol " + name + " reinit no\n";
+    script +=
+        "# reinit no: without it every further 'run' recomputes mass, centre and inertia from the separate spheres, overlaps counted several times.\n"
+        "# Insert with: fix ... deposit ... mol " +
+        name + " rigid rigid_" + name +
+        " ... (or fix pour). Only bodies inserted so take mass, com and inertia from the file; bodies that\n"
+        "# exist before the fix get those of the separate spheres unless its keyword infile gives them.\n";
     return {{file, text}, {name + ".lammps.in", script}};
 }
 

@@ -29,15 +29,15 @@ std::vector<FormatFile> write(const ClumpTemplate& clump, const WriteOptions& op
 
     const Vec3& inertia = mass.principal_inertia;
     std::string script = "# " + header_line(clump, units) +
-                         "\n# For «units si»: mass in kg, inertia in kg m^2 whatever the unit of the sphere file (its scale factor makes metres).\n"
+                         "\n# For \"units si\": mass in kg, inertia in kg m^2 whatever the unit of the sphere file (its scale factor makes metres).\n"
                          "# use_density keeps mass and inertia as given; use_volume or no mass would replace them by a Monte Carlo estimate of the union.\n"
-                         "# type: templates are numbered 1, 2, … without gaps; atom_type: of the material. Seeds: any prime above 10000.\n";
+                         "# type: templates are numbered 1, 2, ... without gaps; atom_type: of the material. Seeds: any prime above 10000.\n";
     script += "fix pts_" + name + " all particletemplate/multisphere 15485863 atom_type " + std::to_string(options.atom_type) + " density constant " +
               exact(mass.density) + " nspheres " + std::to_string(spheres.size()) + " ntry 100000 spheres file " + file + " scale " + exact(units.metre) +
               " type " + std::to_string(options.template_type) + " mass " + exact(mass.mass) + " inertia_tensor " + exact(inertia[0]) + " 0 0 " +
               exact(inertia[1]) + " 0 " + exact(inertia[2]) + " use_density\n";
     script += "fix pdd_" + name + " all particledistribution/discrete 15485867 1 pts_" + name + " 1.0\n";
-    script += "# then: fix … insert/pack … distributiontemplate pdd_" + name + " …, and once: fix … multisphere (instead of fix nve/sphere)\n";
+    script += "# then: fix ... insert/pack ... distributiontemplate pdd_" + name + " ..., and once: fix ... multisphere (instead of fix nve/sphere)\n";
     return {{file, text}, {name + ".liggghts.in", script}};
 }
 

@@ -1,6 +1,7 @@
 // Yade: a text file «x_y_z_r» (yade.ymport.textExt) and a Python function that builds the clump with our mass properties.
 // Yade takes the mass, centre and principal axes of a clump from its members (Clump::updateProperties) and has no way to set the centre afterwards. So the
-// clump is built of massless spheres and one carrier, a body without a bound that has the mass, centre and inertia; then the carrier is erased.
+// clump is built of massless spheres and one carrier, a body without a bound that has the mass, centre and inertia; then the carrier is erased
+// and the clump moved to its place.
 #include "core/error.hpp"
 #include "shapegen/formats/detail/entries.hpp"
 #include "shapegen/formats/detail/header.hpp"
@@ -18,29 +19,35 @@ constexpr const char* function = R"(
 def append_pellet(material, position=(0, 0, 0), orientation=Quaternion.Identity):
     """Adds one pellet: centre of mass at position, body axes turned by orientation. Returns (clump id, ids of its spheres).
 
-    Gives the pellet velocity and spin through O.bodies[clump id].state (vel, angVel; for angVel set angMom too).
+    Set its motion through O.bodies[clump id].state: vel, angVel, and for a spin angMom too (in the world).
     """
     position = Vector3(*position)
     massless = FrictMat(density=0.0)
-    members = [sphere(position + orientation * Vector3(x, y, z), r, material=massless) for x, y, z, r in SPHERES]
+    members = [sphere((x, y, z), r, material=massless) for x, y, z, r in SPHERES]
     carrier = Body()
     carrier.shape = Box(extents=Vector3(1, 1, 1) * min(s[3] for s in SPHERES))
     carrier.bounded = False  # no contacts
     carrier.material = material
-    carrier.state.pos, carrier.state.ori = position, orientation
     carrier.state.mass, carrier.state.inertia = MASS, Vector3(*INERTIA)
     clump, ids = O.bodies.appendClumped(members + [carrier], discretization=0)
-    O.bodies.erase(ids[-1])
+    if len(members) > 1:  # Yade drops a clump that is left with one member
+        O.bodies.erase(ids.pop())
     body = O.bodies[clump]
-    body.aspherical = len(set(INERTIA)) > 1
-    for i in ids[:-1]:
-        O.bodies[i].material = material
-        O.bodies[i].state.mass = MASS  # contact damping laws use the mass of the member
     given, kept = sorted(INERTIA), sorted(body.state.inertia)
-    if abs(body.state.mass - MASS) > 1e-9 * MASS or (body.state.pos - position).norm() > 1e-9 * BOUNDING_RADIUS or any(
-            abs(a - b) > 1e-9 * given[2] for a, b in zip(given, kept)):
-        raise RuntimeError("this version of Yade changed the mass properties of the clump")
-    return clump, ids[:-1]
+    axes = body.state.ori.toRotationMatrix()
+    if abs(body.state.mass - MASS) > 1e-9 * MASS or body.state.pos.norm() > 1e-9 * BOUNDING_RADIUS or any(
+            abs(a - b) > 1e-9 * given[2] for a, b in zip(given, kept)) or any(
+            abs(sum(axes[j, k]**2 * INERTIA[j] for j in range(3)) - body.state.inertia[k]) > 1e-9 * given[2] for k in range(3)):
+        raise RuntimeError('this version of Yade changed the mass properties of the clump')
+    body.aspherical = len(set(INERTIA)) > 1
+    # Built about the origin with the carrier unturned, then moved: Yade turns the inertia of a turned member the wrong way round (2023.02).
+    body.state.pos, body.state.ori = position, orientation * body.state.ori
+    for i, (centre, turn) in body.shape.members.items():
+        state = O.bodies[i].state
+        state.pos, state.ori = position + body.state.ori * centre, body.state.ori * turn
+        state.mass = MASS  # contact damping laws use the mass of the member
+        O.bodies[i].material = material
+    return clump, ids[:len(members)]
 )";
 
 std::vector<FormatFile> write(const ClumpTemplate& clump, const WriteOptions& options) {
