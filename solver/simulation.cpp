@@ -250,6 +250,12 @@ std::uint64_t Simulation::neighbour_rebuilds() const {
     return state_->pairs.rebuilds;
 }
 
+std::vector<StageTime> Simulation::stage_times() const {
+    std::vector<StageTime> times;
+    for (std::size_t k = 0; k < detail::stage_names.size(); ++k) times.push_back({detail::stage_names[k], state_->stage_seconds[k]});
+    return times;
+}
+
 std::vector<ContactPoint> Simulation::contact_points() const {
     const State& s = *state_;
     std::vector<ContactPoint> points;

@@ -111,6 +111,12 @@ struct EnergyReport {
     double kinetic_translation = 0.0, kinetic_rotation = 0.0, gravity = 0.0;  ///< [J]
 };
 
+/// Wall-clock time that a stage of the step has taken since the simulation was made: for reports of where the time goes, not part of any result.
+struct StageTime {
+    std::string name;
+    double seconds = 0.0;
+};
+
 class Simulation {
 public:
     /// Throws Error(bad_input) for a definition that cannot be run.
@@ -139,6 +145,7 @@ public:
     std::vector<ContactPoint> contact_points() const;
     std::vector<WallReport> wall_reports() const;
     std::uint64_t neighbour_rebuilds() const;
+    std::vector<StageTime> stage_times() const;
     EnergyReport energy() const;
 
     /// Hash over every bit that decides the future: poses, velocities, contact history, wall poses.

@@ -1,5 +1,6 @@
 // One time step, as a list of stages.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <sstream>
 
@@ -14,20 +15,42 @@ namespace {
 
 constexpr std::size_t body_grain = 256;  ///< fixed, so sums do not depend on the number of threads
 
+/// Adds the time since the last lap to a stage.
+class StopWatch {
+public:
+    explicit StopWatch(std::array<double, 6>& seconds) : seconds_(seconds) {}
+    void lap(std::size_t stage) {
+        const auto now = std::chrono::steady_clock::now();
+        seconds_[stage] += std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+    }
+
+private:
+    std::array<double, 6>& seconds_;
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
 }  // namespace
 
 void Simulation::step() {
     State& s = *state_;
     const detail::StepClock clock{s.definition.time_step, s.definition.time_step};
+    s.view_is_current = false;
+    StopWatch watch(s.stage_seconds);
     s.kick_and_drift_bodies();
+    watch.lap(0);
     s.move_walls();
+    watch.lap(1);
     s.find_neighbours_if_needed();
+    watch.lap(2);
     s.compute_pair_forces(clock);
+    watch.lap(3);
     s.compute_wall_forces(clock);
+    watch.lap(4);
     s.gather_forces();
     s.kick_bodies();
     s.sum_wall_loads();
-    s.view_is_current = false;
+    watch.lap(5);
 }
 
 void Simulation::advance(std::uint64_t count) {

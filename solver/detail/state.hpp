@@ -1,6 +1,7 @@
 // Everything a Simulation owns. The files of this room each work on a part of it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -32,6 +33,8 @@ struct Simulation::State {
     std::vector<detail::Wall> walls;
     std::vector<WallLoad> wall_loads;
 
+    std::array<double, 6> stage_seconds{};  ///< see stage_names
+
     mutable BodyState view;  ///< filled when bodies() is asked for
     mutable bool view_is_current = false;
 
@@ -53,6 +56,8 @@ struct Simulation::State {
 };
 
 namespace detail {
+
+inline constexpr std::array<const char*, 6> stage_names{"drift", "walls move", "neighbours", "pairs", "wall contacts", "gather and kick"};
 
 /// Constants of the contact law between two materials; Throws Error(bad_input) for values out of range, naming `what`.
 LawRow make_law_row(const ElasticMaterial& a, const ElasticMaterial& b, const PairParameters& contact, const std::string& what);
