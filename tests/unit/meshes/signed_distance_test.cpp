@@ -175,7 +175,7 @@ TEST(ExactDistance, RefusesOpenAndMixedMeshes) {
 
 class GridDistance : public testing::TestWithParam<GridFill> {};
 INSTANTIATE_TEST_SUITE_P(Fill, GridDistance, testing::Values(GridFill::exact_query, GridFill::openvdb),
-                         [](const auto& info) { return std::string(info.param == GridFill::openvdb ? "openvdb" : "exact_query"); });
+                         [](const auto& test) { return std::string(test.param == GridFill::openvdb ? "openvdb" : "exact_query"); });
 
 TEST_P(GridDistance, StaysWithinItsBoundInsideItsBox) {
     const double voxel = 0.15e-3;
