@@ -133,7 +133,7 @@ ParsedUnit parse_unit(std::string_view text, Dimension expected) {
         if (at == text.size()) break;
         sign = text[at] == '/' ? -1 : 1;
         ++at;
-        if (at == text.size()) throw bad_input("the unit '" + std::string(text) + "' ends too early");
+        if (at == text.size()) throw bad_input("the unit '" + std::string(text) + "' ends too early", "units of this quantity: " + list_of_units(expected));
     }
     return unit;
 }
@@ -230,7 +230,8 @@ double parse_quantity(std::string_view whole_text, Dimension expected) {
     }
     const ParsedUnit unit = checked_unit(unit_text, expected);
     const auto decimal_number = shifted({first, static_cast<std::size_t>(rest - first)}, unit.decimal);
-    if (!decimal_number || !std::isfinite(*decimal_number * unit.factor)) throw bad_input("'" + text + "' is not a finite number in SI units");
+    if (!decimal_number || !std::isfinite(*decimal_number * unit.factor))
+        throw bad_input("'" + text + "' is not a finite number in SI units", "write a smaller number");
     return *decimal_number * unit.factor;
 }
 

@@ -1,12 +1,15 @@
+// The reading half of clump files.
 #include "io/clump_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <vector>
 
 #include "core/observables.hpp"
 #include "core/units.hpp"
+#include "io/detail/clump_format.hpp"
 #include "io/detail/toml_text.hpp"
 #include "io/files.hpp"
 
@@ -15,100 +18,6 @@ namespace pelletlab::io {
 namespace {
 
 using namespace detail;
-
-constexpr const char* format_name = "pelletlab-clump";
-constexpr std::int64_t format_version = 1;
-constexpr const char* not_known_text = "not known";
-
-// ---- writing ----------------------------------------------------------------------------------------------------------------
-
-std::string mass_source_name(MassSource source) {
-    switch (source) {
-        case MassSource::target_mesh:
-            return "target_mesh";
-        case MassSource::union_of_spheres:
-            return "union_of_spheres";
-        case MassSource::density_matched_union:
-            break;
-    }
-    return "density_matched_union";
-}
-
-std::string quantity(double value, const char* unit) {
-    return toml_string(std::isfinite(value) ? format_quantity(value, unit) : not_known_text);
-}
-
-std::string plain(double value) {
-    return std::isfinite(value) ? format_quantity(value, "") : toml_string(not_known_text);
-}
-
-std::string quantities(const Vec3& v, const char* unit) {
-    return "[" + quantity(v[0], unit) + ", " + quantity(v[1], unit) + ", " + quantity(v[2], unit) + "]";
-}
-
-std::string distances_text(const char* name, const DistanceFigures& d) {
-    return std::string(name) + " = { mean = " + quantity(d.mean, "mm") + ", rms = " + quantity(d.rms, "mm") + ", max = " + quantity(d.max, "mm") +
-           ", p99 = " + quantity(d.p99, "mm") + " }\n";
-}
-
-std::string rounded(double value, const char* format) {
-    char buffer[64];
-    std::snprintf(buffer, sizeof buffer, format, value);
-    return buffer;
-}
-
-/// A comment for people; nothing reads it back.
-std::string header_text(const ClumpTemplate& clump) {
-    const FitQuality& q = clump.quality;
-    std::string text = "# Clump template of pelletlab: " + std::to_string(clump.rigid.spheres.size()) + " spheres, bounding radius " +
-                       rounded(bounding_radius(clump.rigid.spheres) * 1e3, "%.4f") + " mm, mass " + rounded(clump.rigid.mass_properties.mass * 1e6, "%.3f") +
-                       " mg\n";
-    if (!std::isfinite(q.volume_error)) return text;
-    text += "# Union of the spheres against the body: volume " + rounded(q.volume_error * 100.0, "%+.3f") + " %, symmetric difference " +
-            rounded(q.symmetric_difference * 100.0, "%.3f") + " %, centre off by " + rounded(q.centre_offset * 1e3, "%.5f") + " mm,\n";
-    text += "# moments of inertia " + rounded(q.inertia_error[0] * 100.0, "%+.3f") + ", " + rounded(q.inertia_error[1] * 100.0, "%+.3f") + ", " +
-            rounded(q.inertia_error[2] * 100.0, "%+.3f") + " %; surface distance: mean " + rounded(q.both.mean * 1e3, "%.4f") + " mm, 99th percentile " +
-            rounded(q.both.p99 * 1e3, "%.4f") + " mm, largest " + rounded(q.both.max * 1e3, "%.4f") + " mm\n";
-    return text;
-}
-
-std::string quality_text(const FitQuality& q) {
-    return "[quality]  # union of the spheres against the body\n"
-           "volume_error = " +
-           plain(q.volume_error) + "  # V_union / V_body - 1\n" + "inertia_error = [" + plain(q.inertia_error[0]) + ", " + plain(q.inertia_error[1]) + ", " +
-           plain(q.inertia_error[2]) + "]  # smallest moment first\n" + "centre_offset = " + quantity(q.centre_offset, "mm") + "\n" +
-           "symmetric_difference = " + plain(q.symmetric_difference) + "  # (missing + outside volume) / V_body\n" +
-           distances_text("body_to_union", q.target_to_union) + distances_text("union_to_body", q.union_to_target) + distances_text("both", q.both) +
-           "distance_error_bound = " + quantity(q.distance_error_bound, "mm") + "\n";
-}
-
-std::string mass_text(const MassProperties& m) {
-    const Quat& q = m.principal_axes;
-    return "[mass_properties]\n"
-           "density = " +
-           quantity(m.density, "kg/m^3") + "\n" + "volume = " + quantity(m.volume, "mm^3") + "\n" + "mass = " + quantity(m.mass, "mg") + "\n" +
-           "centre_of_mass_mesh = " + quantities(m.centre_of_mass_mesh, "mm") + "  # in the frame of the mesh file\n" + "principal_axes = [" + plain(q.w()) +
-           ", " + plain(q.x()) + ", " + plain(q.y()) + ", " + plain(q.z()) + "]  # quaternion w, x, y, z: body to mesh frame\n" +
-           "principal_inertia = " + quantities(m.principal_inertia, "mg*mm^2") + "\n";
-}
-
-std::string provenance_text(const Provenance& p) {
-    std::string text = "[provenance]\ntool = " + toml_string(p.tool) + "\nversion = " + toml_string(p.version) + "\ngit_hash = " + toml_string(p.git_hash) +
-                       "\nverb = " + toml_string(p.verb) + "\nseed = " + toml_string(std::to_string(p.seed)) + "\n\n[provenance.input_hashes]  # SHA-256\n";
-    for (const auto& [file, hash] : p.input_hashes) text += toml_key(file) + " = " + toml_string(hash) + "\n";
-    return text;
-}
-
-std::string spheres_text(const std::vector<Sphere>& spheres) {
-    std::string text =
-        "# Body frame: origin in the centre of mass, axes along the principal axes of inertia. One row a sphere: x, y, z, radius.\nspheres = [\n";
-    for (const Sphere& s : spheres)
-        text += "  [" + quantity(s.centre[0], "mm") + ", " + quantity(s.centre[1], "mm") + ", " + quantity(s.centre[2], "mm") + ", " +
-                quantity(s.radius, "mm") + "],\n";
-    return text + "]\n";
-}
-
-// ---- reading ----------------------------------------------------------------------------------------------------------------
 
 /// A table on the way to our structs: every key is asked for by name, what nobody asked for is an error.
 class TableReader {
@@ -293,24 +202,16 @@ MassSource read_mass_source(TableReader& r) {
 
 }  // namespace
 
-std::string clump_text(const ClumpTemplate& c) {
-    return header_text(c) + "format = " + toml_string(format_name) + "\nformat_version = " + std::to_string(format_version) +
-           "\nname = " + toml_string(c.rigid.name) + "\nmass_source = " + toml_string(mass_source_name(c.mass_source)) + "\n\n" +
-           spheres_text(c.rigid.spheres) + "\n" + mass_text(c.rigid.mass_properties) + "\n" + quality_text(c.quality) +
-           "\n[mesh]\nfile = " + toml_string(c.mesh_file) + "\nunit = " + toml_string(c.mesh_unit) + "\nsha256 = " + toml_string(c.mesh_hash) + "\n\n" +
-           provenance_text(c.provenance);
-}
-
 ClumpTemplate parse_clump(const std::string& text, const std::string& file) {
     const toml::table table = parse_toml(text, file);
     TableReader r(table, "", file);
     const auto* format = table.get_as<std::string>("format");
-    if (format == nullptr || format->get() != format_name)
+    if (format == nullptr || format->get() != clump_format_name)
         throw bad_input("this is no clump template of pelletlab",
-                        "name a file made by `pelletlab shape`: it says format = \"" + std::string(format_name) + "\"", {file});
+                        "name a file made by `pelletlab shape`: it says format = \"" + std::string(clump_format_name) + "\"", {file});
     r.node("format");
     const toml::node& version = r.node("format_version");
-    if (!version.is_integer() || version.as_integer()->get() != format_version)
+    if (!version.is_integer() || version.as_integer()->get() != clump_format_version)
         throw bad_input("this version of the clump format is not known to this pelletlab", "use the pelletlab that wrote it, or make the clump again",
                         place_of(version, file));
     ClumpTemplate c;
@@ -328,12 +229,6 @@ ClumpTemplate parse_clump(const std::string& text, const std::string& file) {
     c.provenance = read_provenance(r.table("provenance"));
     r.finish();
     return c;
-}
-
-void write_clump(const ClumpTemplate& clump, const std::filesystem::path& file) {
-    const std::string text = clump_text(clump);
-    parse_clump(text, file.string());  // a clump that could not be read back is told now, not when it is needed
-    write_text(file, text);
 }
 
 ClumpTemplate read_clump(const std::filesystem::path& file) {

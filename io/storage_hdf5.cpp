@@ -153,6 +153,13 @@ struct Storage::Open {
         return sizes;
     }
 
+    /// A damaged header may claim sizes that no memory holds: deflate shrinks by 1030 at most, so the stored bytes bound the true ones.
+    void check_stored_size(const Handle& set, const std::string& path, const std::vector<hsize_t>& sizes, std::size_t element_bytes) const {
+        hsize_t bytes = element_bytes;
+        for (const hsize_t size : sizes) bytes *= size;
+        if (bytes / 1100 > H5Dget_storage_size(set.id()) + chunk_bytes) throw unexpected(path, "claims more numbers than the file holds");
+    }
+
     void set_unit(const Handle& set, const char* unit) const {
         const Handle type = string_type(std::string(unit).size());
         const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
@@ -196,6 +203,7 @@ struct Storage::Open {
         const Handle set = open(path);
         const auto sizes = shape(set, path, 2, number_class);
         if (sizes[1] != columns) throw unexpected(path, "has " + std::to_string(sizes[1]) + " columns instead of " + std::to_string(columns));
+        check_stored_size(set, path, sizes, sizeof(T));
         std::vector<T> values(static_cast<std::size_t>(sizes[0]) * columns);
         if (!values.empty() && H5Dread(set.id(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) throw failure("cannot read", path);
         return values;
@@ -205,7 +213,6 @@ struct Storage::Open {
         Selection one;
         one.start.assign(sizes.size(), 0);
         one.count = sizes;
-        if (sizes.empty()) return one;
         one.start[0] = index;
         one.count[0] = 1;
         for (const hsize_t size : one.count) one.elements *= static_cast<std::size_t>(size);
@@ -344,7 +351,8 @@ void Storage::append_row(const std::string& path, std::span<const double> row) {
 std::size_t Storage::row_count(const std::string& path, const std::vector<std::size_t>& row_shape) const {
     const QuietErrors quiet;
     const auto sizes = open_->shape(open_->growing(path), path, any_rank, H5T_FLOAT);
-    if (sizes.empty() || !std::equal(sizes.begin() + 1, sizes.end(), row_shape.begin(), row_shape.end()))
+    open_->check_stored_size(open_->growing(path), path, sizes, sizeof(double));
+    if (!std::equal(sizes.begin() + 1, sizes.end(), row_shape.begin(), row_shape.end()))
         throw open_->unexpected(path, "does not fit the number of bodies or walls");
     return static_cast<std::size_t>(sizes[0]);
 }
