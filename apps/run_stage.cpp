@@ -1,0 +1,141 @@
+#include "apps/run_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "apps/shape_stage.hpp"
+#include "apps/stage.hpp"
+#include "apps/terminal.hpp"
+#include "core/error.hpp"
+#include "experiments/rotating_drum.hpp"
+#include "io/case_file.hpp"
+#include "io/clump_file.hpp"
+#include "io/files.hpp"
+#include "io/observables_file.hpp"
+#include "io/paraview.hpp"
+#include "io/trajectory_file.hpp"
+#include "packing/fill_tube.hpp"
+#include "report/pictures.hpp"
+
+namespace pelletlab::apps {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const char* name_of(Rig rig) {
+    return rig == Rig::tube ? "tube" : "drum";
+}
+
+fs::path beside_case(const Case& c, const std::string& file) {
+    return fs::path(c.folder) / file;
+}
+
+StageKey key_of(const Case& c, const fs::path& clump_file) {
+    StageKey key;
+    key.verb = c.rig == Rig::tube ? "fill" : "drum";
+    key.settings = io::resolved_case_text(c);
+    key.inputs["clump"] = io::sha256_of_file(clump_file);
+    const std::string& wall_mesh = c.rig == Rig::tube ? c.tube.mesh_file : c.drum.mesh_file;
+    if (!wall_mesh.empty()) key.inputs["wall mesh"] = io::sha256_of_file(beside_case(c, wall_mesh));
+    return key;
+}
+
+packing::RunResult run_rig(const Case& c, const packing::RunInputs& inputs, const fs::path& trajectory_file) {
+    std::unique_ptr<io::TrajectoryWriter> writer;
+    const auto open_sink = [&](const TrajectoryHeader& header) -> packing::FrameSink {
+        writer = std::make_unique<io::TrajectoryWriter>(trajectory_file, header);
+        return [&writer](const Frame& frame) { writer->append(frame); };
+    };
+    ProgressPrinter progress;
+    packing::RunResult result =
+        c.rig == Rig::tube ? packing::fill_tube(c, inputs, open_sink, progress.sink()) : experiments::run_drum(c, inputs, open_sink, progress.sink());
+    progress.finish();
+    writer->finish();
+    return result;
+}
+
+void print_observables(const Observables& observables) {
+    std::vector<std::pair<std::string, std::string>> rows;
+    for (const Observable& o : observables.values) {
+        std::string text = fmt::format("{:.5g}", o.value);
+        if (std::isfinite(o.standard_error)) text += fmt::format(" ± {:.2g}", o.standard_error);
+        rows.emplace_back(o.name, text + " " + o.unit + (o.method.empty() ? "" : "   [" + o.method + "]"));
+    }
+    print_line(fmt::format("Measured ({}; definitions in docs/observables.md):", observables.status));
+    print_pairs(rows);
+}
+
+void write_pictures(const Case& c, const FrameSource& trajectory, const Observables& observables, const fs::path& folder) {
+    report::PictureSettings settings;
+    settings.width = c.output.picture_width;
+    settings.draw_spheres = c.output.picture_spheres;
+    if (c.rig == Rig::drum) settings.circle_diameter = c.drum.diameter;
+    const Frame last = trajectory.frame(trajectory.frame_count() - 1);
+    const fs::path bed = folder / (std::string(name_of(c.rig)) + ".png");
+    report::write_png(
+        c.rig == Rig::tube ? report::picture_of_tube(trajectory.header(), last, settings) : report::picture_of_drum(trajectory.header(), last, settings), bed);
+    print_written(bed, settings.draw_spheres ? "last frame, the clumps' spheres" : "last frame, true pellet surface");
+    if (c.rig == Rig::drum) {
+        report::write_png(report::picture_of_map(observables, "speed", settings), folder / "velocity-map.png");
+        print_written(folder / "velocity-map.png", "mean velocity over the end view");
+    }
+}
+
+}  // namespace
+
+RunSummary run_case(const RunRequest& request, Rig expected) {
+    const Stopwatch stopwatch;
+    const Case c = io::read_case(request.case_file, request.overrides);
+    if (c.rig != expected)
+        throw usage_error(fmt::format("'{}' is a case for the {}", request.case_file.string(), name_of(c.rig)),
+                          c.rig == Rig::tube ? "run it with: pelletlab fill" : "run it with: pelletlab drum");
+
+    const fs::path clump_file = beside_case(c, c.pellet.clump_file);
+    if (!fs::exists(clump_file))
+        throw bad_input("the clump template '" + clump_file.string() + "' is not there",
+                        "make it with: pelletlab shape MESH --unit mm -o " + clump_file.string(), {request.case_file.string()});
+    packing::RunInputs inputs;
+    inputs.clump = io::read_clump(clump_file);
+    if (!inputs.clump.mesh_file.empty()) inputs.pellet_surface_body = true_surface(inputs.clump, clump_file);
+
+    RunSummary summary;
+    summary.folder = request.output.empty() ? fs::path("out") / c.name : request.output;
+    const StageKey key = key_of(c, clump_file);
+    if (!request.force && stage_is_finished(summary.folder, key)) {
+        print_line(summary.folder.string() + " is up to date (same case, same clump, same program)");
+        summary.status = io::read_observables(summary.folder / "observables.json").status;
+        summary.was_up_to_date = true;
+        return summary;
+    }
+    begin_stage(summary.folder);
+    inputs.resolved_case = key.settings;
+    inputs.provenance = provenance_of(key, c.seed);
+    io::write_text(summary.folder / "case.resolved.toml", inputs.resolved_case);
+
+    const fs::path trajectory_file = summary.folder / "run.h5";
+    packing::RunResult result = run_rig(c, inputs, trajectory_file);
+    result.observables.provenance = inputs.provenance;
+    io::write_observables(result.observables, summary.folder / "observables.json");
+    print_observables(result.observables);
+    print_written(trajectory_file, "trajectory, HDF5");
+    print_written(summary.folder / "observables.json", "measured values, profiles and maps");
+
+    const auto trajectory = io::open_trajectory(trajectory_file);
+    if (c.output.paraview) print_written(io::write_paraview(*trajectory, summary.folder / "paraview").bodies, "ParaView; spheres.pvd and walls.pvd beside it");
+    if (c.output.pictures) write_pictures(c, *trajectory, result.observables, summary.folder);
+    throw_if_interrupted();
+    mark_stage_finished(summary.folder, key);
+
+    summary.status = result.observables.status;
+    summary.state_hash = result.state_hash;
+    summary.wall_seconds = stopwatch.seconds();
+    summary.pellet_steps_per_second = result.pellet_steps_per_second;
+    print_line(fmt::format("  {} steps, {:.3g} pellet-steps/s, state hash {:016x}, took {}, peak memory {:.0f} MB", result.steps,
+                           result.pellet_steps_per_second, result.state_hash, duration_text(summary.wall_seconds), peak_memory_megabytes()));
+    return summary;
+}
+
+}  // namespace pelletlab::apps

@@ -1,0 +1,32 @@
+// Stages 2 and 3 of the chain: case file + clump template → trajectory, observables, ParaView files and pictures in one folder.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/case.hpp"
+
+namespace pelletlab::apps {
+
+struct RunRequest {
+    std::filesystem::path case_file;
+    std::vector<std::string> overrides;  ///< «key=value»
+    std::filesystem::path output;        ///< empty: out/<case name>
+    bool force = false;
+};
+
+struct RunSummary {
+    std::filesystem::path folder;
+    std::string status;
+    bool was_up_to_date = false;
+    std::uint64_t state_hash = 0;
+    double wall_seconds = 0.0;             ///< whole stage
+    double pellet_steps_per_second = 0.0;  ///< stepping alone
+};
+
+/// Runs the case on its rig; throws Error(usage) when the case's rig is not `expected`.
+RunSummary run_case(const RunRequest& request, Rig expected);
+
+}  // namespace pelletlab::apps

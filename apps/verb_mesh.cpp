@@ -1,0 +1,50 @@
+// pelletlab mesh check | assets
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "apps/terminal.hpp"
+#include "apps/verbs.hpp"
+#include "meshes/assets.hpp"
+#include "meshes/check.hpp"
+#include "meshes/read_mesh.hpp"
+
+namespace pelletlab::apps {
+
+namespace {
+
+struct MeshOptions {
+    std::string file, unit, folder = "meshes/assets";
+};
+
+void check_file(const MeshOptions& options) {
+    const TriangleMesh mesh = meshes::read_mesh(options.file, options.unit);
+    print_line(meshes::check(mesh).summary());
+    const meshes::CheckedMesh checked = meshes::require_closed_body(mesh);
+    for (const std::string& repair : checked.report.repairs) print_line("  repaired: " + repair);
+    print_line("closed body: usable by `pelletlab shape`");
+}
+
+}  // namespace
+
+void add_mesh_verb(CLI::App& app) {
+    auto options = std::make_shared<MeshOptions>();
+    CLI::App* mesh = app.add_subcommand("mesh", "Look at a mesh, or write the reference meshes");
+    mesh->require_subcommand(1);
+    mesh->fallthrough();
+
+    CLI::App* check = mesh->add_subcommand("check", "Report size, volume and defects\n  example: pelletlab mesh check pellet.stl --unit mm");
+    check->add_option("mesh", options->file, "STL, OBJ or PLY file")->required();
+    check->add_option("--unit", options->unit, "Unit of its coordinates: mm, m, um, in, … (an STL holds none)");
+    check->callback([options] { check_file(*options); });
+
+    CLI::App* assets = mesh->add_subcommand("assets", "Write the reference meshes and their MANIFEST\n  example: pelletlab mesh assets -o meshes/assets");
+    assets->add_option("-o,--output", options->folder, "Folder")->capture_default_str();
+    assets->callback([options] {
+        meshes::write_assets(options->folder);
+        print_written(options->folder, "reference meshes and MANIFEST.toml");
+    });
+}
+
+}  // namespace pelletlab::apps

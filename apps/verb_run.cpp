@@ -1,0 +1,38 @@
+// pelletlab fill CASE and pelletlab drum CASE: stages 2 and 3 on the command line.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "apps/run_stage.hpp"
+#include "apps/verbs.hpp"
+
+namespace pelletlab::apps {
+
+namespace {
+
+void add_run_verb(CLI::App& app, Rig rig, const char* name, const char* text) {
+    struct Options {
+        std::string case_file, output;
+        std::vector<std::string> overrides;
+        bool force = false;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* verb = app.add_subcommand(name, text);
+    verb->add_option("case", options->case_file, "Case file (TOML); make one with: pelletlab case new")->required();
+    verb->add_option("-o,--output", options->output, "Folder of the results; out/<case name> when not given");
+    verb->add_option("--set", options->overrides, "key=value over the case file, for instance pellet.count=500; may be repeated");
+    verb->add_flag("--force", options->force, "Run again although nothing has changed");
+    verb->callback([options, rig] { run_case({options->case_file, options->overrides, options->output, options->force}, rig); });
+}
+
+}  // namespace
+
+void add_fill_verb(CLI::App& app) {
+    add_run_verb(app, Rig::tube, "fill", "Fill a tube with pellets and measure the bed\n  example: pelletlab fill examples/tube.toml -o out/tube");
+}
+
+void add_drum_verb(CLI::App& app) {
+    add_run_verb(app, Rig::drum, "drum",
+                 "Turn a drum and measure angles of repose and velocities\n  example: pelletlab drum examples/drum.toml --set drum.speed=\"50 rpm\"");
+}
+
+}  // namespace pelletlab::apps

@@ -1,0 +1,15 @@
+// One function a verb: adds itself to the command line; its callback does the work and throws Error.
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace pelletlab::apps {
+
+void add_mesh_verb(CLI::App& app);
+void add_shape_verb(CLI::App& app);
+void add_case_verb(CLI::App& app);
+void add_fill_verb(CLI::App& app);
+void add_drum_verb(CLI::App& app);
+void add_demo_verb(CLI::App& app);
+
+}  // namespace pelletlab::apps
