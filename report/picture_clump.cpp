@@ -86,25 +86,25 @@ Image picture_of_clump(const TriangleMesh& body, std::span<const Sphere> spheres
     const ColourBar bar = bar_of(visible, settings.range);
 
     const Vec3 right = forward.cross(Vec3::UnitZ()).normalized();
-    Box box = bounding_box(body);
-    for (const Vec3& vertex : surfaces.vertices) box.extend(vertex);
-    const Vec3 centre = box.center();
+    const Box body_box = bounding_box(body), clump_box = bounding_box(surfaces);
+    const Vec3 centre = body_box.merged(clump_box).center();
     double half_width = 0.0;
     for (const Vec3& vertex : body.vertices) half_width = std::max(half_width, std::abs((vertex - centre).dot(right)));
     for (const Vec3& vertex : surfaces.vertices) half_width = std::max(half_width, std::abs((vertex - centre).dot(right)));
-    const Vec3 apart = 1.35 * half_width * right;
+    const Vec3 body_place = -1.35 * half_width * right;
+    const Vec3 clump_place = 1.35 * half_width * right + (body_box.min().z() - clump_box.min().z()) * Vec3::UnitZ();
 
     Scene scene;
-    scene.objects.push_back(one_of(body, -apart));
-    scene.objects.push_back(one_of(surfaces, apart));
+    scene.objects.push_back(one_of(body, body_place));
+    scene.objects.push_back(one_of(surfaces, clump_place));
     for (const double distance : union_vertex_distance)
         scene.objects.back().vertex_colours.push_back(map_colour(bar.map, bar.range.fraction(distance / millimetre)));
     scene.ground = true;
-    scene.ground_level = box.min().z();
+    scene.ground_level = body_box.min().z();
 
     std::vector<Vec3> outline;
-    for (const Vec3& vertex : body.vertices) outline.push_back(vertex - apart);
-    for (const Vec3& vertex : surfaces.vertices) outline.push_back(vertex + apart);
+    for (const Vec3& vertex : body.vertices) outline.push_back(vertex + body_place);
+    for (const Vec3& vertex : surfaces.vertices) outline.push_back(vertex + clump_place);
     const double column = colour_bar_width(bar, page.bar_width, page.text) + 2.0 * page.margin;
     const double head = 2.0 * page.margin + page.title.cap_height, foot = 1.6 * page.margin + 2.0 * page.text.cap_height;
     const double width = settings.width - column - 2.0 * page.margin;
@@ -118,9 +118,9 @@ Image picture_of_clump(const TriangleMesh& body, std::span<const Sphere> spheres
     caption.align = Align::centre;
     const double baseline = height - 0.9 * page.margin;
     const detail::CameraRays rays(camera, settings.width, height);
-    draw_text(image, (*rays.project(centre - apart))[0], baseline, "body", caption);
+    draw_text(image, (*rays.project(centre + body_place))[0], baseline, "body", caption);
     const std::string count = std::to_string(spheres_mesh.size()) + (spheres_mesh.size() == 1 ? " sphere" : " spheres");
-    draw_text(image, (*rays.project(centre + apart))[0], baseline, "clump of " + count, caption);
+    draw_text(image, (*rays.project(centre + clump_place))[0], baseline, "clump of " + count, caption);
     if (settings.title) draw_text(image, page.margin, page.margin + page.title.cap_height, *settings.title, page.title);
     const double bar_height = std::min(0.55 * height, 420.0 * page.unit);
     draw_colour_bar(image, bar, settings.width - column + page.margin, 0.5 * (height - bar_height) + page.text.cap_height, page.bar_width, bar_height,

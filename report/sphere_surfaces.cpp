@@ -56,7 +56,7 @@ std::vector<double> cover_depth(std::span<const Sphere> spheres, const TriangleM
 }
 
 double relative_edge(std::size_t sphere_count) {
-    return 1.2 / std::pow(2.0, subdivisions_for(sphere_count));
+    return 1.35 / std::pow(2.0, subdivisions_for(sphere_count));
 }
 
 }  // namespace detail

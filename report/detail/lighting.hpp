@@ -20,10 +20,10 @@ struct Lighting {
 /// Key light from upper left, behind the camera.
 Lighting studio(const Camera& camera);
 
-/// Share of the sky's strength that comes from a direction.
-inline float sky_towards(const Lighting& light, const Vec3f& direction) {
-    const float height = 0.5f + 0.5f * direction.dot(light.up);
-    return light.sky_strength * (light.sky_below + (1.0f - light.sky_below) * height);
+/// Light that a surface with that normal gets from the whole open sky: strength · (b + (1 − b)·(1 + d·up)/2) averaged over directions d with weight cos/π,
+/// which is d·up → 2/3 n·up.
+inline float open_sky(const Lighting& light, const Vec3f& normal) {
+    return light.sky_strength * (light.sky_below + (1.0f - light.sky_below) * (0.5f + normal.dot(light.up) / 3.0f));
 }
 
 /// Colour and opacity of one glass surface seen at |cos| between ray and normal: nearly clear face on, darker at the rim (Schlick 1994's power of five).

@@ -99,7 +99,10 @@ Painter::Packet Painter::look(std::uint32_t x, std::uint32_t y, const PixelSampl
     for (std::size_t i = 0; i < packet.count; ++i) {
         const Point2 film = pattern.film(first + i);
         const Ray ray = camera_.ray(x + film[0], y + film[1]);
-        packet.rays.set(i, prepared_.scaled(ray.origin).cast<float>(), ray.direction.cast<float>(), 0.0f, far_away);
+        // Everything lies within 1 of the origin: rays from afar start 2 before it, else single precision would blur them.
+        Vec3 origin = prepared_.scaled(ray.origin);
+        origin += std::max(0.0, -origin.dot(ray.direction) - 2.0) * ray.direction;
+        packet.rays.set(i, origin.cast<float>(), ray.direction.cast<float>(), 0.0f, far_away);
     }
     Lanes<Hit> hits;
     tracer_.first_hits(Layer::opaque, packet.rays, hits);
@@ -111,9 +114,9 @@ Painter::Packet Painter::look(std::uint32_t x, std::uint32_t y, const PixelSampl
 }
 
 /// Lights of a point before anything stands in their way.
-void Painter::shade(Sight& seen, const Vec3f& view, const Vec3f& sky_direction) const {
+void Painter::shade(Sight& seen, const Vec3f& view) const {
     const float towards_key = std::max(0.0f, seen.normal.dot(light_.to_key));
-    const float key = light_.key_strength * towards_key, sky = sky_towards(light_, sky_direction);
+    const float key = light_.key_strength * towards_key, sky = open_sky(light_, seen.normal);
     if (seen.thing == PixelRecord::ground) {  // share of what an empty ground would receive
         const Light share = background_ / (key + sky);
         seen.key = key * share;
@@ -138,7 +141,7 @@ void Painter::light_every_ray(Packet& packet, const PixelSamples& pattern, std::
         Sight& seen = packet.seen[i];
         if (seen.thing == PixelRecord::nothing) continue;
         const Vec3f sky_direction = cosine_direction(seen.normal, pattern.sky(first + i));
-        shade(seen, packet.rays.along(i), sky_direction);
+        shade(seen, packet.rays.along(i));
         sky_rays.set(i, seen.point, sky_direction, 0.0f, far_away);
         if (seen.normal.dot(light_.to_key) > 0.0f)
             key_rays.set(i, seen.point, cone_direction(light_.to_key, light_.key_spread, pattern.key(first + i)), 0.0f, far_away);
@@ -153,17 +156,16 @@ void Painter::light_every_ray(Packet& packet, const PixelSamples& pattern, std::
 }
 
 /// Pixels inside a surface: one packet holds up to eight rays to the key light and eight to the sky; smoothing over neighbours makes up for the rest.
-void Painter::light_some_rays(Packet& packet, const PixelSamples& pattern) const {
+/// Returns how many of the camera rays it took.
+std::size_t Painter::light_some_rays(Packet& packet, const PixelSamples& pattern) const {
     constexpr std::size_t half = packet_size / 2;
     RayPacket rays;
     const std::size_t count = std::min(half, packet.count);
     float key_tried = 0.0f, key_passed = 0.0f, sky_passed = 0.0f;
-    for (std::size_t i = 0; i < packet.count; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         Sight& seen = packet.seen[i];
-        const Vec3f sky_direction = cosine_direction(seen.normal, pattern.sky(i));
-        shade(seen, packet.rays.along(i), sky_direction);
-        if (i >= count) continue;
-        rays.set(half + i, seen.point, sky_direction, 0.0f, far_away);
+        shade(seen, packet.rays.along(i));
+        rays.set(half + i, seen.point, cosine_direction(seen.normal, pattern.sky(i)), 0.0f, far_away);
         if (seen.normal.dot(light_.to_key) <= 0.0f) continue;
         rays.set(i, seen.point, cone_direction(light_.to_key, light_.key_spread, pattern.key(i)), 0.0f, far_away);
         key_tried += 1.0f;
@@ -174,10 +176,9 @@ void Painter::light_some_rays(Packet& packet, const PixelSamples& pattern) const
         if (rays.active[i] && !blocked[i]) key_passed += 1.0f;
         if (!blocked[half + i]) sky_passed += 1.0f;
     }
-    for (std::size_t i = 0; i < packet.count; ++i) {
-        packet.seen[i].key_seen = key_tried > 0.0f ? key_passed / key_tried : 0.0f;
-        packet.seen[i].sky_seen = sky_passed / static_cast<float>(count);
-    }
+    packet.seen[0].key_seen = key_tried > 0.0f ? key_passed / key_tried : 0.0f;
+    packet.seen[0].sky_seen = sky_passed / static_cast<float>(count);
+    return count;
 }
 
 /// Glass in front of what was seen: layer by layer from the eye, each lets 1 − opacity through.
@@ -208,52 +209,62 @@ void Painter::add_glass(Packet& packet) const {
     }
 }
 
-PixelRecord Painter::pixel(std::uint32_t x, std::uint32_t y) const {
-    const PixelSamples pattern(std::uint64_t{y} * width_ + x);
+/// One instance (or the ground, or nothing) fills the pixel.
+PixelRecord Painter::whole_pixel(Packet& packet, const PixelSamples& pattern) const {
     PixelRecord record;
-    Light sum = Light::Zero();
-    for (std::size_t first = 0; first < samples_; first += packet_size) {
-        Packet packet = look(x, y, pattern, first);
-        const bool whole = packet.one_thing && samples_ <= packet_size;
-        const std::uint32_t thing = packet.seen[0].thing;
-        if (!packet.one_thing || (!whole && thing != PixelRecord::nothing))
-            light_every_ray(packet, pattern, first);
-        else if (thing != PixelRecord::nothing)
-            light_some_rays(packet, pattern);
-        for (std::size_t i = 0; i < packet.count; ++i)
-            if (packet.seen[i].thing == PixelRecord::nothing) packet.seen[i].open_sky = background_;
-        if (tracer_.has_glass()) add_glass(packet);
-
-        record.thing = whole ? thing : PixelRecord::mixed;
-        for (std::size_t i = 0; i < packet.count; ++i) {
-            const Sight& seen = packet.seen[i];
-            record.key += seen.key;
-            record.open_sky += seen.open_sky;
-            record.blocked_sky += seen.blocked_sky;
-            record.normal += seen.normal;
-            record.veil += seen.veil;
-            record.through += seen.through;
-            if (!whole)
-                sum += (seen.veil + seen.through * (seen.key_seen * seen.key + seen.sky_seen * seen.open_sky + (1.0f - seen.sky_seen) * seen.blocked_sky))
-                           .min(1.0f);
+    record.thing = packet.seen[0].thing;
+    if (record.thing == PixelRecord::nothing) {
+        record.open_sky = background_;
+    } else {
+        const std::size_t lit = light_some_rays(packet, pattern);
+        const float share = 1.0f / static_cast<float>(lit);
+        for (std::size_t i = 0; i < lit; ++i) {
+            record.key += share * packet.seen[i].key;
+            record.open_sky += share * packet.seen[i].open_sky;
+            record.blocked_sky += share * packet.seen[i].blocked_sky;
+            record.normal += packet.seen[i].normal;
         }
+        record.normal.normalize();
         record.key_seen = packet.seen[0].key_seen;
         record.sky_seen = packet.seen[0].sky_seen;
     }
-    const float share = 1.0f / static_cast<float>(samples_);
-    if (record.thing == PixelRecord::mixed) {
-        record = PixelRecord();
-        record.thing = PixelRecord::mixed;
-        record.veil = share * sum;
-        record.through = 0.0f;
-        return record;
+    if (!tracer_.has_glass()) return record;
+    add_glass(packet);
+    record.through = 0.0f;
+    for (std::size_t i = 0; i < packet.count; ++i) {
+        record.veil += packet.seen[i].veil / static_cast<float>(packet.count);
+        record.through += packet.seen[i].through / static_cast<float>(packet.count);
     }
-    record.key *= share;
-    record.open_sky *= share;
-    record.blocked_sky *= share;
-    record.normal.normalize();
-    record.veil *= share;
-    record.through = (record.through - 1.0f) * share;
+    return record;
+}
+
+/// Sum of the packet's colours, each ray on its own.
+Light Painter::mixed_pixel(Packet& packet, const PixelSamples& pattern, std::size_t first) const {
+    light_every_ray(packet, pattern, first);
+    if (tracer_.has_glass()) add_glass(packet);
+    Light sum = Light::Zero();
+    for (std::size_t i = 0; i < packet.count; ++i) {
+        const Sight& seen = packet.seen[i];
+        const Light behind = seen.thing == PixelRecord::nothing
+                                 ? background_
+                                 : Light(seen.key_seen * seen.key + seen.sky_seen * seen.open_sky + (1.0f - seen.sky_seen) * seen.blocked_sky);
+        sum += (seen.veil + seen.through * behind).min(1.0f);
+    }
+    return sum;
+}
+
+PixelRecord Painter::pixel(std::uint32_t x, std::uint32_t y) const {
+    const PixelSamples pattern(std::uint64_t{y} * width_ + x);
+    Light sum = Light::Zero();
+    for (std::size_t first = 0; first < samples_; first += packet_size) {
+        Packet packet = look(x, y, pattern, first);
+        if (packet.one_thing && samples_ <= packet_size) return whole_pixel(packet, pattern);
+        sum += mixed_pixel(packet, pattern, first);
+    }
+    PixelRecord record;
+    record.thing = PixelRecord::mixed;
+    record.veil = sum / static_cast<float>(samples_);
+    record.through = 0.0f;
     return record;
 }
 

@@ -46,10 +46,12 @@ private:
     Packet look(std::uint32_t x, std::uint32_t y, const PixelSamples& pattern, std::size_t first) const;
     Sight sight(const RayPacket& rays, std::size_t lane, const Hit& hit) const;
     void read_surface(const Hit& hit, Sight& seen) const;
-    void shade(Sight& seen, const Vec3f& view, const Vec3f& sky_direction) const;
+    void shade(Sight& seen, const Vec3f& view) const;
     void light_every_ray(Packet& packet, const PixelSamples& pattern, std::size_t first) const;
-    void light_some_rays(Packet& packet, const PixelSamples& pattern) const;
+    std::size_t light_some_rays(Packet& packet, const PixelSamples& pattern) const;
     void add_glass(Packet& packet) const;
+    PixelRecord whole_pixel(Packet& packet, const PixelSamples& pattern) const;
+    Light mixed_pixel(Packet& packet, const PixelSamples& pattern, std::size_t first) const;
 
     const PreparedScene& prepared_;
     const Tracer& tracer_;

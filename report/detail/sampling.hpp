@@ -27,7 +27,9 @@ public:
 private:
     Point2 point(std::size_t pattern, std::size_t i) const {
         constexpr double a1 = 0.7548776662466927, a2 = 0.5698402909980532;  // 1/g and 1/g², g³ = g + 1
-        const auto n = static_cast<double>(i);
+        // Another order of the same sixteen points for each pattern: where a ray starts must not decide where its light comes from.
+        constexpr std::array<std::size_t, 3> stride = {1, 7, 11};
+        const auto n = static_cast<double>((i & ~std::size_t{15}) + ((i & 15) * stride[pattern] & 15));
         const double x = shifts_[pattern][0] + n * a1, y = shifts_[pattern][1] + n * a2;
         return {x - std::floor(x), y - std::floor(y)};
     }
