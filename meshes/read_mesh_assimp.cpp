@@ -64,7 +64,8 @@ TriangleMesh collect(const aiScene& scene, const std::filesystem::path& file) {
 
 TriangleMesh read_mesh(const std::filesystem::path& file, const std::string& unit) {
     if (unit.empty())
-        throw bad_input("the mesh has no unit: a mesh file stores bare numbers", "say which unit they are in, for instance unit = \"mm\"", {file.string()});
+        throw bad_input("the mesh has no unit: a mesh file stores bare numbers",
+                        "say which unit they are in, for instance --unit mm, or mesh_unit = \"mm\" in a case", {file.string()});
     const double factor = unit_factor(unit, dimension::length);
     const std::string extension = lower_case_extension(file);
     const std::string bytes = detail::read_bytes(file);

@@ -43,10 +43,10 @@ void require_size(const MeshReport& report) {
     const double extent = report.extent.maxCoeff();
     if (extent > largest_extent)
         throw bad_input("the body is " + length_text(extent) + " large; a pellet is at most 1 m",
-                        "was the unit of the mesh file forgotten? For instance unit = \"mm\"");
+                        "was the unit of the mesh file forgotten? For instance --unit mm, or mesh_unit = \"mm\" in a case");
     if (extent < smallest_extent)
         throw bad_input("the body is only " + length_text(extent) + " large; a pellet is at least 1 um",
-                        "check the unit of the mesh file, for instance unit = \"mm\"");
+                        "check the unit of the mesh file, for instance --unit mm, or mesh_unit = \"mm\" in a case");
 }
 
 /// Turns outer shells outward and cavities inward; returns how many shells were turned.
