@@ -37,31 +37,44 @@ std::size_t push_mesh(VtkPolyData& data, const TriangleMesh& mesh, const Pose& p
     return mesh.faces.size();
 }
 
-/// Each body's true surface; a body of which only spheres are known is a point with its bounding radius.
+/// Each body as a point with its pose: ParaView's «Glyph With Custom Source» puts the pellet-<shape>.vtp there (orientation mode «Quaternion»).
 VtkPolyData bodies_of(const TrajectoryHeader& header, const Frame& frame) {
     VtkPolyData data;
-    std::vector<std::int32_t> body;
-    std::vector<float> speed, radius;
-    const auto push_cells = [&](std::size_t i, std::size_t count) {
-        body.insert(body.end(), count, static_cast<std::int32_t>(i));
-        speed.insert(speed.end(), count, static_cast<float>(frame.velocities[i].norm()));
-    };
-    const auto shape_of = [&header](std::size_t i) -> const PelletShape& { return header.shapes[header.shape_of_body[i]]; };
-    for (std::size_t i = 0; i < header.shape_of_body.size(); ++i) {  // point cells come first in VTK's order of cells
-        if (!shape_of(i).surface_body.empty()) continue;
-        data.vertices.connectivity.push_back(point_count(data));
-        data.vertices.offsets.push_back(static_cast<std::int32_t>(data.vertices.connectivity.size()));
-        push_point(data, frame.positions[i]);
-        radius.push_back(static_cast<float>(shape_of(i).rigid.bounding_radius));
-        push_cells(i, 1);
-    }
+    std::vector<std::int32_t> body, shape;
+    std::vector<float> quaternion, velocity, spin, speed, radius;
     for (std::size_t i = 0; i < header.shape_of_body.size(); ++i) {
-        if (shape_of(i).surface_body.empty()) continue;
-        push_cells(i, push_mesh(data, shape_of(i).surface_body, {frame.positions[i], frame.orientations[i]}));
+        data.vertices.connectivity.push_back(point_count(data));
+        push_point(data, frame.positions[i]);
+        body.push_back(static_cast<std::int32_t>(i));
+        shape.push_back(static_cast<std::int32_t>(header.shape_of_body[i]));
+        const Quat& q = frame.orientations[i];
+        for (const double component : {q.w(), q.x(), q.y(), q.z()}) quaternion.push_back(static_cast<float>(component));
+        for (int k = 0; k < 3; ++k) velocity.push_back(static_cast<float>(frame.velocities[i][k]));
+        for (int k = 0; k < 3; ++k) spin.push_back(static_cast<float>(frame.spins[i][k]));
+        speed.push_back(static_cast<float>(frame.velocities[i].norm()));
+        radius.push_back(static_cast<float>(header.shapes[header.shape_of_body[i]].rigid.bounding_radius));
     }
-    if (!radius.empty()) {
-        radius.resize(data.points.size() / 3, 0.0f);
-        data.point_data.push_back({"bounding_radius", 1, std::move(radius)});
+    if (!body.empty()) data.vertices.offsets.push_back(point_count(data));
+    data.point_data.push_back({"quaternion", 4, std::move(quaternion)});
+    data.point_data.push_back({"velocity", 3, std::move(velocity)});
+    data.point_data.push_back({"spin", 3, std::move(spin)});
+    data.point_data.push_back({"speed", 1, std::move(speed)});
+    data.point_data.push_back({"bounding_radius", 1, std::move(radius)});
+    data.point_data.push_back({"body", 1, std::move(body)});
+    data.point_data.push_back({"shape", 1, std::move(shape)});
+    return data;
+}
+
+/// The true surfaces of all bodies at their poses, in one mesh.
+VtkPolyData surfaces_of(const TrajectoryHeader& header, const Frame& frame) {
+    VtkPolyData data;
+    data.time = frame.time;
+    std::vector<std::int32_t> body;
+    std::vector<float> speed;
+    for (std::size_t i = 0; i < header.shape_of_body.size(); ++i) {
+        const std::size_t polygons = push_mesh(data, header.shapes[header.shape_of_body[i]].surface_body, {frame.positions[i], frame.orientations[i]});
+        body.insert(body.end(), polygons, static_cast<std::int32_t>(i));
+        speed.insert(speed.end(), polygons, static_cast<float>(frame.velocities[i].norm()));
     }
     data.cell_data.push_back({"body", 1, std::move(body)});
     data.cell_data.push_back({"speed", 1, std::move(speed)});
@@ -145,6 +158,13 @@ ParaviewFiles write_paraview(const FrameSource& trajectory, const fs::path& fold
         }
     }
     for (const Series& series : all) write_text(folder / (std::string(series.name) + ".pvd"), detail::pvd_text(series.entries));
+    for (std::size_t shape = 0; shape < header.shapes.size(); ++shape) {
+        VtkPolyData data;
+        push_mesh(data, header.shapes[shape].surface_body, {});
+        write_text(folder / ("pellet-" + std::to_string(shape) + ".vtp"), detail::vtp_text(data));
+    }
+    if (trajectory.frame_count() > 0)
+        write_text(folder / "surface-last.vtp", detail::vtp_text(surfaces_of(header, trajectory.frame(trajectory.frame_count() - 1))));
     return {folder / "bodies.pvd", folder / "spheres.pvd", folder / "walls.pvd"};
 }
 

@@ -182,7 +182,7 @@ Trajectory small_trajectory(std::size_t frames) {
 
 }  // namespace
 
-TEST(Paraview, BodiesAreSurfacesAtTheirPoses) {
+TEST(Paraview, BodiesArePointsWithTheirPose) {
     const test::TemporaryFolder folder;
     const io::ParaviewFiles files = io::write_paraview(small_trajectory(1), folder.path());
     EXPECT_EQ(files.bodies, folder / "bodies.pvd");
@@ -190,21 +190,31 @@ TEST(Paraview, BodiesAreSurfacesAtTheirPoses) {
     EXPECT_EQ(root.attributes.at("type"), "PolyData");
     EXPECT_EQ(root.attributes.at("byte_order"), "LittleEndian");
     const XmlElement& piece = root.child("PolyData").child("Piece");
-    EXPECT_EQ(piece.attributes.at("NumberOfPoints"), "7");
-    EXPECT_EQ(piece.attributes.at("NumberOfVerts"), "1");
+    EXPECT_EQ(piece.attributes.at("NumberOfPoints"), "3");
+    EXPECT_THAT(numbers_of<float>(root, piece.child("Points").array("Points")), ElementsAre(10, 0, 0, 20, 0, 0, 30, 0, 0));
+    const auto quaternion = numbers_of<float>(root, piece.child("PointData").array("quaternion"));
+    ASSERT_EQ(quaternion.size(), 12u);
+    const float half = std::sqrt(0.5f);  // body 2 is turned by 90° about z: w = z = cos 45°
+    const float expected[] = {1, 0, 0, 0, 1, 0, 0, 0, half, 0, 0, half};
+    for (std::size_t i = 0; i < quaternion.size(); ++i) EXPECT_NEAR(quaternion[i], expected[i], 1e-6) << i;  // float32
+    EXPECT_THAT(numbers_of<float>(root, piece.child("PointData").array("speed")), ElementsAre(0.0f, 5.0f, 2.0f));
+    EXPECT_THAT(numbers_of<std::int32_t>(root, piece.child("PointData").array("body")), ElementsAre(0, 1, 2));
+}
+
+TEST(Paraview, TrueSurfacesAreThereOnceAndAtTheLastPoses) {
+    const test::TemporaryFolder folder;
+    io::write_paraview(small_trajectory(1), folder.path());
+    EXPECT_EQ(read_xml(folder / "pellet-0.vtp").child("PolyData").child("Piece").attributes.at("NumberOfPolys"), "1");
+    const XmlElement root = read_xml(folder / "surface-last.vtp");
+    const XmlElement& piece = root.child("PolyData").child("Piece");
     EXPECT_EQ(piece.attributes.at("NumberOfPolys"), "2");
     const auto points = numbers_of<float>(root, piece.child("Points").array("Points"));
-    // the bare body first, then body 0 as it is, then body 2 turned by 90° about z: (1,0,0) → (0,1,0), (0,1,0) → (−1,0,0)
-    ASSERT_EQ(points.size(), 21u);
-    const float expected[] = {20, 0, 0, 11, 0, 0, 10, 1, 0, 10, 0, 1, 30, 1, 0, 29, 0, 0, 30, 0, 1};
+    // body 0 as it is, then body 2 turned by 90° about z: (1,0,0) → (0,1,0), (0,1,0) → (−1,0,0); body 1 has no surface
+    ASSERT_EQ(points.size(), 18u);
+    const float expected[] = {11, 0, 0, 10, 1, 0, 10, 0, 1, 30, 1, 0, 29, 0, 0, 30, 0, 1};
     for (std::size_t i = 0; i < points.size(); ++i) EXPECT_NEAR(points[i], expected[i], 1e-6) << i;  // float32 of numbers up to 30
-    EXPECT_THAT(numbers_of<std::int32_t>(root, piece.child("Verts").array("connectivity")), ElementsAre(0));
-    EXPECT_THAT(numbers_of<std::int32_t>(root, piece.child("Verts").array("offsets")), ElementsAre(1));
-    EXPECT_THAT(numbers_of<std::int32_t>(root, piece.child("Polys").array("connectivity")), ElementsAre(1, 2, 3, 4, 5, 6));
-    EXPECT_THAT(numbers_of<std::int32_t>(root, piece.child("Polys").array("offsets")), ElementsAre(3, 6));
-    EXPECT_THAT(numbers_of<std::int32_t>(root, piece.child("CellData").array("body")), ElementsAre(1, 0, 2));
-    EXPECT_THAT(numbers_of<float>(root, piece.child("CellData").array("speed")), ElementsAre(5.0f, 0.0f, 2.0f));
-    EXPECT_THAT(numbers_of<float>(root, piece.child("PointData").array("bounding_radius")), ElementsAre(2.0f, 0, 0, 0, 0, 0, 0));
+    EXPECT_THAT(numbers_of<std::int32_t>(root, piece.child("CellData").array("body")), ElementsAre(0, 2));
+    EXPECT_THAT(numbers_of<float>(root, piece.child("CellData").array("speed")), ElementsAre(0.0f, 2.0f));
 }
 
 TEST(Paraview, SpheresArePointsWithRadius) {
