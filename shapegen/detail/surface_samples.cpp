@@ -79,7 +79,9 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, std::size_t count, std::
     const double stratum = samples.area / static_cast<double>(count);
     std::vector<Piece> pieces;
     for (const Piece& piece : whole) cut(piece, 0.5 * stratum, box, pieces);
-    std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.key < b.key; });
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> order(pieces.size());
+    for (std::size_t k = 0; k < pieces.size(); ++k) order[k] = {pieces[k].key, static_cast<std::uint32_t>(k)};
+    std::sort(order.begin(), order.end());
 
     samples.points.reserve(count);
     samples.normals.reserve(count);
@@ -88,15 +90,16 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, std::size_t count, std::
     std::size_t k = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const double target = (static_cast<double>(i) + random.uniform()) * stratum;
-        while (k + 1 < pieces.size() && passed + pieces[k].area < target) passed += pieces[k++].area;
+        while (k + 1 < order.size() && passed + pieces[order[k].second].area < target) passed += pieces[order[k++].second].area;
         double u = random.uniform(), v = random.uniform();
         if (u + v > 1.0) {
             u = 1.0 - u;
             v = 1.0 - v;
         }
-        const auto& [a, b, c] = pieces[k].corner;
+        const Piece& piece = pieces[order[k].second];
+        const auto& [a, b, c] = piece.corner;
         samples.points.push_back(a + u * (b - a) + v * (c - a));
-        samples.normals.push_back(pieces[k].normal);
+        samples.normals.push_back(piece.normal);
     }
     return samples;
 }

@@ -14,13 +14,6 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double same_circle = 1e-12;  // [rad], caps closer than this are one cap
 
-// The part of a sphere inside one neighbour: all directions within `opening` of `axis`.
-struct Cap {
-    std::uint32_t neighbour = 0;
-    Vec3 axis = Vec3::UnitZ();
-    double cosine = 1.0, sine = 0.0, opening = 0.0;
-};
-
 double angle_between(const Vec3& a, const Vec3& b) {
     return 2.0 * std::asin(std::min(1.0, 0.5 * (a - b).norm()));
 }
@@ -252,6 +245,7 @@ ExposedPart exposed_part(std::span<const Sphere> spheres, std::uint32_t index, s
     if (part.arcs.empty()) return part;
     part.solid_angle = exposed_solid_angle(part.arcs, caps);
     for (const ExposedArc& arc : part.arcs) part.normal_integral -= 0.5 * conormal_integral(arc);
+    part.caps = std::move(caps);
     return part;
 }
 

@@ -25,14 +25,21 @@ struct ExposedArc {
     bool full_circle = false;
 };
 
+/// The part of a sphere that one neighbour hides: all directions n with n·axis > cosine.
+struct Cap {
+    std::uint32_t neighbour = 0;
+    Vec3 axis = Vec3::UnitZ();
+    double cosine = 1.0, sine = 0.0, opening = 0.0;
+};
+
 /// What one sphere shows of itself.
 struct ExposedPart {
     double solid_angle = 0.0;             ///< A on the unit sphere; area = radius² A
     Vec3 normal_integral = Vec3::Zero();  ///< M on the unit sphere
     std::vector<ExposedArc> arcs;
+    std::vector<Cap> caps;  ///< widest first, without those inside another; empty too for a sphere that is hidden altogether
 };
 
-/// Angle circle (caps) that neighbours cut out of this sphere; only caps that no other cap contains are kept.
 ExposedPart exposed_part(std::span<const Sphere> spheres, std::uint32_t index, std::span<const std::uint32_t> neighbours);
 
 /// All spheres; in parallel, same bits for any number of threads.

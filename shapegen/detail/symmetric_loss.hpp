@@ -1,0 +1,46 @@
+// Both directions of the fit at once, the quantity that the quality report calls rms²: half the mean of φ_U² over the body's surface plus half the mean
+// of φ_B² over the union's exposed surface, and penalties that hold volume and moments of inertia.
+//
+// With the union's surface moving at normal speed v (v = n·dc + dr on each sphere), the integral I = ∫ f dA, f = φ_B², changes by
+//     dI = Σ_spheres ∫ (∂f/∂n + 2 f / r) v dA − Σ_creases ∮ f tan(β/2) (v_i + v_j) ds,
+// β the angle between the normals of the two spheres of a crease (it follows from div V on each patch and V·(ν_i + ν_j) on each crease).
+#pragma once
+
+#include <vector>
+
+#include "meshes/signed_distance.hpp"
+#include "shapegen/detail/gap_loss.hpp"
+#include "shapegen/detail/match_moments.hpp"
+#include "shapegen/detail/union_boundary.hpp"
+
+namespace pelletlab::shapegen::detail {
+
+class SymmetricLoss {
+public:
+    /// `points` are spread over the union's exposed surface, about; `body` has volume 1 and its centre in the origin.
+    SymmetricLoss(const SampleBlocks& samples, const meshes::SignedDistance& distance, std::span<const Sphere> spheres, const BodyMoments& body,
+                  std::size_t points);
+
+    double evaluate(const VectorXd& x, VectorXd& gradient, BlockMetric* metric);
+
+    double first() const { return first_; }    ///< of the last evaluation: mean φ_U² over the body's surface
+    double second() const { return second_; }  ///< mean φ_B² over the union's surface
+    double union_volume() const { return union_volume_; }
+
+private:
+    struct Part;
+    struct Directions {  // Fibonacci points of the unit sphere
+        std::vector<float> x, y, z;
+    };
+    Part one_sphere(const Sphere& sphere, const ExposedPart& part, std::span<const Sphere> spheres, const Directions& directions) const;
+
+    GapLoss gap_loss_;
+    const meshes::SignedDistance& distance_;
+    Mat3 axes_;    // principal axes of the body
+    Vec3 spread_;  // its covariance along them
+    std::vector<Directions> tables_;
+    std::vector<std::size_t> table_of_;  // of each sphere, fixed so that the loss stays one function
+    double first_ = 0.0, second_ = 0.0, union_volume_ = 0.0;
+};
+
+}  // namespace pelletlab::shapegen::detail
