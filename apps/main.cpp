@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "apps/verbs.hpp"
 #include "core/error.hpp"
@@ -24,6 +26,20 @@ constexpr const char* description =
 int report(const char* text, int code) {
     fmt::print(stderr, "pelletlab: error: {}\n", text);
     return code;
+}
+
+/// The parser complains first about what is missing; a word that it does not know is the likelier mistake.
+pelletlab::Error unknown_word(const CLI::App& app) {
+    std::vector<std::string> known;
+    const auto add_names = [&known](const CLI::App* one) {
+        for (const CLI::App* verb : one->get_subcommands({})) known.push_back(verb->get_name());
+        for (const CLI::Option* option : one->get_options()) known.push_back(option->get_name());
+    };
+    add_names(&app);
+    for (const CLI::App* verb : app.get_subcommands()) add_names(verb);
+    const std::string word = app.remaining(true).front();
+    const std::string closest = pelletlab::closest_word(word, known);
+    return pelletlab::usage_error("'" + word + "' is no verb or option here", closest.empty() ? "see pelletlab --help" : "did you mean '" + closest + "'?");
 }
 
 }  // namespace
@@ -49,6 +65,7 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
         return 0;
     } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0 && !app.remaining(true).empty()) return report(unknown_word(app).what(), static_cast<int>(pelletlab::ErrorKind::usage));
         const int code = app.exit(error);
         return code == 0 ? 0 : static_cast<int>(pelletlab::ErrorKind::usage);
     } catch (const pelletlab::Error& error) {

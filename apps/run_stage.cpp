@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "apps/shape_stage.hpp"
 #include "apps/stage.hpp"
@@ -68,19 +71,22 @@ void print_observables(const Observables& observables) {
     print_pairs(rows);
 }
 
-void write_pictures(const Case& c, const FrameSource& trajectory, const Observables& observables, const fs::path& folder) {
+using Written = std::vector<std::pair<std::string, std::string>>;  // file name in the stage's folder, what it is
+
+void write_pictures(const Case& c, const FrameSource& trajectory, const Observables& observables, const fs::path& folder, Written& written) {
     report::PictureSettings settings;
     settings.width = c.output.picture_width;
     settings.draw_spheres = c.output.picture_spheres;
     if (c.rig == Rig::drum) settings.circle_diameter = c.drum.diameter;
     const Frame last = trajectory.frame(trajectory.frame_count() - 1);
-    const fs::path bed = folder / (std::string(name_of(c.rig)) + ".png");
+    const std::string bed = std::string(name_of(c.rig)) + ".png";
     report::write_png(
-        c.rig == Rig::tube ? report::picture_of_tube(trajectory.header(), last, settings) : report::picture_of_drum(trajectory.header(), last, settings), bed);
-    print_written(bed, settings.draw_spheres ? "last frame, the clumps' spheres" : "last frame, true pellet surface");
+        c.rig == Rig::tube ? report::picture_of_tube(trajectory.header(), last, settings) : report::picture_of_drum(trajectory.header(), last, settings),
+        folder / bed);
+    written.emplace_back(bed, settings.draw_spheres ? "last frame, the clumps' spheres" : "last frame, true pellet surface");
     if (c.rig == Rig::drum) {
         report::write_png(report::picture_of_map(observables, "speed", settings), folder / "velocity-map.png");
-        print_written(folder / "velocity-map.png", "mean velocity over the end view");
+        written.emplace_back("velocity-map.png", "mean velocity over the end view");
     }
 }
 
@@ -110,24 +116,26 @@ RunSummary run_case(const RunRequest& request, Rig expected) {
         summary.was_up_to_date = true;
         return summary;
     }
-    begin_stage(summary.folder);
     inputs.resolved_case = key.settings;
     inputs.provenance = provenance_of(key, c.seed);
-    io::write_text(summary.folder / "case.resolved.toml", inputs.resolved_case);
 
-    const fs::path trajectory_file = summary.folder / "run.h5";
-    packing::RunResult result = run_rig(c, inputs, trajectory_file);
+    StageFolder stage(summary.folder);
+    const fs::path& folder = stage.unfinished();
+    packing::RunResult result = run_rig(c, inputs, folder / "run.h5");
     result.observables.provenance = inputs.provenance;
-    io::write_observables(result.observables, summary.folder / "observables.json");
     print_observables(result.observables);
-    print_written(trajectory_file, "trajectory, HDF5");
-    print_written(summary.folder / "observables.json", "measured values, profiles and maps");
-
-    const auto trajectory = io::open_trajectory(trajectory_file);
-    if (c.output.paraview) print_written(io::write_paraview(*trajectory, summary.folder / "paraview").bodies, "ParaView; spheres.pvd and walls.pvd beside it");
-    if (c.output.pictures) write_pictures(c, *trajectory, result.observables, summary.folder);
+    io::write_text(folder / "case.resolved.toml", inputs.resolved_case);
+    io::write_observables(result.observables, folder / "observables.json");
+    Written written{{"run.h5", "trajectory, HDF5"}, {"observables.json", "measured values, profiles and maps"}};
+    const auto trajectory = io::open_trajectory(folder / "run.h5");
+    if (c.output.paraview) {
+        io::write_paraview(*trajectory, folder / "paraview", c.output.paraview_every);
+        written.emplace_back("paraview/bodies.pvd", "ParaView; spheres.pvd and walls.pvd beside it");
+    }
+    if (c.output.pictures) write_pictures(c, *trajectory, result.observables, folder, written);
     throw_if_interrupted();
-    mark_stage_finished(summary.folder, key);
+    stage.finish(key);
+    for (const auto& [file, what] : written) print_written(summary.folder / file, what);
 
     summary.status = result.observables.status;
     summary.state_hash = result.state_hash;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "io/files.hpp"
@@ -14,6 +15,18 @@ namespace {
 fs::path mark_of(const fs::path& folder) {
     return folder / "stage.json";
 }
+
+/// The mark of an older result; null when there is none or it cannot be read.
+nlohmann::json read_mark(const fs::path& folder) {
+    if (!fs::exists(mark_of(folder))) return nullptr;
+    return nlohmann::json::parse(io::read_text(mark_of(folder)), nullptr, false);
+}
+
+/// Removes one file or folder directly in `folder`: a mark that was edited must not lead anywhere else.
+void remove_result(const fs::path& folder, const std::string& name) {
+    if (!name.empty() && name != "." && name != ".." && fs::path(name).filename() == name) fs::remove_all(folder / name);
+}
+
 }  // namespace
 
 std::string StageKey::fingerprint() const {
@@ -33,36 +46,46 @@ Provenance provenance_of(const StageKey& key, std::uint64_t seed) {
 }
 
 bool stage_is_finished(const fs::path& folder, const StageKey& key) {
-    if (!fs::exists(mark_of(folder))) return false;
-    const auto mark = nlohmann::json::parse(io::read_text(mark_of(folder)), nullptr, false);
+    const auto mark = read_mark(folder);
     if (!mark.is_object() || mark.value("fingerprint", std::string()) != key.fingerprint()) return false;
     for (const auto& file : mark.value("files", std::vector<std::string>()))
         if (!fs::exists(folder / file)) return false;
     return true;
 }
 
-void begin_stage(const fs::path& folder) {
-    io::prepare_output_folder(folder);
-    fs::remove(mark_of(folder));
-    std::vector<fs::path> leftovers;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (entry.is_regular_file() && entry.path().extension() == ".part") leftovers.push_back(entry.path());
-    for (const fs::path& file : leftovers) fs::remove(file);
+StageFolder::StageFolder(fs::path folder) : folder_(std::move(folder)), unfinished_(folder_ / "unfinished.part"), is_new_(!fs::exists(folder_)) {
+    io::prepare_output_folder(folder_);
+    fs::remove_all(unfinished_);
+    io::prepare_output_folder(unfinished_);
 }
 
-void mark_stage_finished(const fs::path& folder, const StageKey& key) {
+StageFolder::~StageFolder() {
+    std::error_code ignored;
+    fs::remove_all(unfinished_, ignored);
+    if (is_new_) fs::remove(folder_, ignored);  // succeeds for an empty folder only
+}
+
+void StageFolder::finish(const StageKey& key) {
+    std::vector<std::string> files;
+    for (const auto& entry : fs::directory_iterator(unfinished_)) files.push_back(entry.path().filename().string());
+    std::sort(files.begin(), files.end());
     nlohmann::json mark;
     mark["fingerprint"] = key.fingerprint();
     mark["version"] = build_version();
     mark["git_hash"] = build_git_hash();
     mark["verb"] = key.verb;
     mark["inputs"] = key.inputs;
-    std::vector<std::string> files;
-    for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.is_regular_file() && entry.path() != mark_of(folder)) files.push_back(entry.path().filename().string());
-    std::sort(files.begin(), files.end());
     mark["files"] = files;
-    io::write_text(mark_of(folder), mark.dump(2) + "\n");
+
+    const auto older = read_mark(folder_);
+    fs::remove(mark_of(folder_));
+    if (older.is_object())
+        for (const auto& file : older.value("files", std::vector<std::string>())) remove_result(folder_, file);
+    for (const std::string& file : files) {
+        remove_result(folder_, file);
+        fs::rename(unfinished_ / file, folder_ / file);
+    }
+    io::write_text(mark_of(folder_), mark.dump(2) + "\n");
 }
 
 }  // namespace pelletlab::apps

@@ -22,10 +22,24 @@ Provenance provenance_of(const StageKey& key, std::uint64_t seed);
 /// True when `folder` holds the finished result of this very key.
 bool stage_is_finished(const std::filesystem::path& folder, const StageKey& key);
 
-/// Called last, when every file of the stage is in place: writes <folder>/stage.json.
-void mark_stage_finished(const std::filesystem::path& folder, const StageKey& key);
+/// The output folder of a stage while it works: files are made in <folder>/unfinished.part and move into the folder together at the end, so an interrupted or
+/// failed stage leaves the folder as it was, an older result included.
+class StageFolder {
+public:
+    /// Makes the folder and clears what a killed run left in it; Error(bad_input) when it cannot be written.
+    explicit StageFolder(std::filesystem::path folder);
+    ~StageFolder();  ///< without finish(): removes everything unfinished, and the folder if it was made for this
+    StageFolder(const StageFolder&) = delete;
+    StageFolder& operator=(const StageFolder&) = delete;
 
-/// Called first: removes the mark and leftovers (*.part) of an earlier, interrupted attempt.
-void begin_stage(const std::filesystem::path& folder);
+    const std::filesystem::path& unfinished() const { return unfinished_; }
+
+    /// Replaces the older result by the new one and writes <folder>/stage.json. Files that no stage made are left alone.
+    void finish(const StageKey& key);
+
+private:
+    std::filesystem::path folder_, unfinished_;
+    bool is_new_;
+};
 
 }  // namespace pelletlab::apps

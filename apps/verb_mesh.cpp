@@ -6,6 +6,7 @@
 
 #include "apps/terminal.hpp"
 #include "apps/verbs.hpp"
+#include "io/files.hpp"
 #include "meshes/assets.hpp"
 #include "meshes/check.hpp"
 #include "meshes/read_mesh.hpp"
@@ -42,6 +43,7 @@ void add_mesh_verb(CLI::App& app) {
     CLI::App* assets = mesh->add_subcommand("assets", "Write the reference meshes and their MANIFEST\n  example: pelletlab mesh assets -o meshes/assets");
     assets->add_option("-o,--output", options->folder, "Folder")->capture_default_str();
     assets->callback([options] {
+        io::prepare_output_folder(options->folder);
         meshes::write_assets(options->folder);
         print_written(options->folder, "reference meshes and MANIFEST.toml");
     });

@@ -177,7 +177,7 @@ std::vector<CaseKey> make_keys() {
                key("output.paraview_every", PELLETLAB_MEMBER(c.output.paraview_every), "ParaView gets each n-th stored frame, and the last.")));
     add(key("output.pictures", PELLETLAB_MEMBER(c.output.pictures), "Write PNG pictures."));
     add(key("output.picture_spheres", PELLETLAB_MEMBER(c.output.picture_spheres), "Draw the spheres of the clump instead of the pellet's true surface."));
-    add(within(from_to(16, 16384), key("output.picture_width", PELLETLAB_MEMBER(c.output.picture_width), "Width of the pictures in pixels.")));
+    add(within(from_to(200, 16384), key("output.picture_width", PELLETLAB_MEMBER(c.output.picture_width), "Width of the pictures in pixels.")));
 
     add(in(
         length, "mm",

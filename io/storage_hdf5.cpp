@@ -153,6 +153,23 @@ struct Storage::Open {
         return sizes;
     }
 
+    /// HDF5 trusts a damaged description of a dataset and reads past its buffers; so what we have written is checked before anything is read:
+    /// our very number type, chunks of the array's own width, and our three filters.
+    void check_layout(const Handle& set, const std::string& path, const std::vector<hsize_t>& sizes, hid_t number_type) const {
+        const Handle type(H5Dget_type(set.id()), H5Tclose);
+        const Handle properties(H5Dget_create_plist(set.id()), H5Pclose);
+        std::vector<hsize_t> chunk(sizes.size());
+        bool ours = H5Tequal(type.id(), number_type) > 0 && H5Pget_layout(properties.id()) == H5D_CHUNKED &&
+                    H5Pget_chunk(properties.id(), static_cast<int>(chunk.size()), chunk.data()) == static_cast<int>(chunk.size()) &&
+                    std::equal(chunk.begin() + 1, chunk.end(), sizes.begin() + 1) && H5Pget_nfilters(properties.id()) == 3;
+        for (const H5Z_filter_t wanted : {H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE, H5Z_FILTER_FLETCHER32}) {
+            unsigned flags = 0;
+            std::size_t count = 0;
+            ours = ours && H5Pget_filter_by_id2(properties.id(), wanted, &flags, &count, nullptr, 0, nullptr, nullptr) >= 0;
+        }
+        if (!ours) throw unexpected(path, "is not stored the way pelletlab stores it");
+    }
+
     /// A damaged header may claim sizes that no memory holds: deflate shrinks by 1030 at most, so the stored bytes bound the true ones.
     void check_stored_size(const Handle& set, const std::string& path, const std::vector<hsize_t>& sizes, std::size_t element_bytes) const {
         hsize_t bytes = element_bytes;
@@ -203,6 +220,7 @@ struct Storage::Open {
         const Handle set = open(path);
         const auto sizes = shape(set, path, 2, number_class);
         if (sizes[1] != columns) throw unexpected(path, "has " + std::to_string(sizes[1]) + " columns instead of " + std::to_string(columns));
+        check_layout(set, path, sizes, file_type<T>());
         check_stored_size(set, path, sizes, sizeof(T));
         std::vector<T> values(static_cast<std::size_t>(sizes[0]) * columns);
         if (!values.empty() && H5Dread(set.id(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) throw failure("cannot read", path);
@@ -227,12 +245,21 @@ struct Storage::Open {
     }
 };
 
+namespace {
+/// When a file could not be flushed (full disk), HDF5 1.10 keeps it open and crashes while it cleans up at the end of the program. Every handle here closes
+/// itself, so that clean-up is switched off, before the library's first call.
+void leave_no_work_for_the_exit() {
+    [[maybe_unused]] static const herr_t done = H5dont_atexit();
+}
+}  // namespace
+
 Storage::Storage(std::unique_ptr<Open> open) : open_(std::move(open)) {}
 Storage::Storage(Storage&&) noexcept = default;
 Storage& Storage::operator=(Storage&&) noexcept = default;
 Storage::~Storage() = default;
 
 Storage Storage::create(const std::filesystem::path& file) {
+    leave_no_work_for_the_exit();
     const QuietErrors quiet;
     auto open = std::make_unique<Open>();
     open->name = file.string();
@@ -242,6 +269,7 @@ Storage Storage::create(const std::filesystem::path& file) {
 }
 
 Storage Storage::open(const std::filesystem::path& file) {
+    leave_no_work_for_the_exit();
     const QuietErrors quiet;
     auto open = std::make_unique<Open>();
     open->name = file.string();
@@ -351,6 +379,7 @@ void Storage::append_row(const std::string& path, std::span<const double> row) {
 std::size_t Storage::row_count(const std::string& path, const std::vector<std::size_t>& row_shape) const {
     const QuietErrors quiet;
     const auto sizes = open_->shape(open_->growing(path), path, any_rank, H5T_FLOAT);
+    open_->check_layout(open_->growing(path), path, sizes, file_type<double>());
     open_->check_stored_size(open_->growing(path), path, sizes, sizeof(double));
     if (!std::equal(sizes.begin() + 1, sizes.end(), row_shape.begin(), row_shape.end()))
         throw open_->unexpected(path, "does not fit the number of bodies or walls");

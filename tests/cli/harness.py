@@ -65,7 +65,7 @@ class PelletlabTest(unittest.TestCase):
         return Result(arguments, process.returncode, out, err)
 
     def everything(self):
-        """Every file and folder below the test's folder."""
+        """Every file and folder below the test's folder, relative to it."""
         return sorted(os.path.relpath(os.path.join(top, name), self.folder) for top, folders, files in os.walk(self.folder) for name in folders + files)
 
     # --- expectations

@@ -50,6 +50,11 @@ class Cases(PelletlabTest):
         self.reject(r"count\s*=", "count = -5", ["count"])
         self.reject(r"fill_fraction\s*=", "fill_fraction = 1.2", ["fill_fraction"], rig="drum")
 
+    def test_picture_that_the_renderer_would_refuse_is_refused_before_the_run(self):
+        file = self.new_case()
+        for width in (199, 16385):
+            self.fails(BAD_INPUT, "case", "check", file, "--set", f"output.picture_width={width}", says="picture_width")
+
     def test_value_of_another_type(self):
         self.reject(r"count\s*=", 'count = "many"', ["count"])
         self.reject(r"seed\s*=", "seed = 1.5", ["seed"])

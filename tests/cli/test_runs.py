@@ -26,7 +26,7 @@ class Runs(PelletlabTest):
         return found.group(1)
 
     def test_fill_writes_every_result(self):
-        result = self.succeeds("fill", self.new_case(), *SMALL[:-4], "-o", "out/tube", "--set", "output.picture_width=64")
+        result = self.succeeds("fill", self.new_case(), *SMALL[:-4], "-o", "out/tube", "--set", "output.picture_width=200")
         for name in (*RESULTS, "case.resolved.toml", "tube.png", "paraview/bodies.pvd", "paraview/spheres.pvd", "paraview/walls.pvd"):
             self.assertTrue(os.path.getsize(self.path("out/tube", name)) > 0, name)
         with open(self.path("out/tube/run.h5"), "rb") as stream:
@@ -38,7 +38,7 @@ class Runs(PelletlabTest):
         self.assertNotIn(".part", " ".join(self.everything()), result)
 
     def test_drum_writes_every_result(self):
-        self.succeeds("drum", self.new_case("drum"), *SMALL_DRUM[:-4], "-o", "out/drum", "--set", "output.picture_width=64")
+        self.succeeds("drum", self.new_case("drum"), *SMALL_DRUM[:-4], "-o", "out/drum", "--set", "output.picture_width=200")
         for name in (*RESULTS, "case.resolved.toml", "drum.png", "velocity-map.png", "paraview/walls.pvd"):
             self.assertTrue(os.path.getsize(self.path("out/drum", name)) > 0, name)
         text = self.read("out/drum/observables.json")
@@ -163,9 +163,10 @@ class InterruptedRuns(PelletlabTest):
 
     def test_ctrl_c_in_the_middle_of_a_fit(self):
         bodies.write_binary_stl(self.path("pellet.stl"), bodies.cylinder(facets=96))
-        begin = time.monotonic()
         process = self.start("shape", "pellet.stl", "--unit", "mm", "-n", "1500", "-o", "pellet.clump.toml")
-        result = self.interrupt(process, lambda: time.monotonic() - begin > 1.0)
+        self.assertIn("pellet.stl", process.stdout.readline())  # the mesh is read and checked: the fit begins
+        begin = time.monotonic()
+        result = self.interrupt(process, lambda: time.monotonic() - begin > 0.5)
         self.assertEqual(result.code, INTERRUPTED, result)
         self.assertEqual(self.everything(), ["pellet.stl"], result)
 
