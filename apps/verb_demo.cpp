@@ -69,7 +69,7 @@ void run_demo(const DemoOptions& options) {
     for (const char* rpm : {"20", "50"})
         run(fmt::format("drum: D 80 x L 20 mm at {} rpm", rpm), [&] {
             return speed_of(run_case({out / "drum.toml",
-                                      {fmt::format("case.name=drum-{}rpm", rpm), fmt::format("drum.speed={} rpm", rpm)},
+                                      {fmt::format("name=drum-{}rpm", rpm), fmt::format("drum.speed={} rpm", rpm)},
                                       out / fmt::format("drum-{}rpm", rpm),
                                       options.force},
                                      Rig::drum));
