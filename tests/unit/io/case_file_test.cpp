@@ -34,7 +34,7 @@ Case awkward_case(Rig rig, std::uint64_t stream) {
     c.drum = {positive() + 0.01, positive(), -positive(), random.uniform(), random.uniform(), 33, false, "drum.stl", "um", "perspex"};
     c.insertion = {random.uniform() / 2.0, positive()};
     c.time = {positive() * 1e-4, 1.0 / 3.0, positive(), positive(), 0.5 + positive()};
-    c.output = {0.1 + 1.0 / 3.0, false, 3, false, true, 77};
+    c.output = {0.1 + 1.0 / 3.0, false, 3, false, true, 277};
     c.measurement = {0.01 / 3.0, 0.01 / 7.0};
     return c;
 }
