@@ -20,6 +20,8 @@ std::vector<FormatFile> write(const ClumpTemplate& clump, const WriteOptions& op
     const Units units = units_for(options, "m", "kg");
     const std::string name = safe_name(clump);
     const double size = units.in_length(bounding_radius(clump.rigid.spheres));
+    if (!(size > 1e-30 && size < 1e30))
+        throw bad_input("DEM-Engine works in single precision: a clump of size " + exact(size) + " is out of its range", "use another unit of length");
     const int decimals = std::clamp(10 - static_cast<int>(std::floor(std::log10(size))), 0, 60);
     std::string text = "x,y,z,r\n";
     for (const Sphere& s : clump.rigid.spheres)

@@ -86,6 +86,27 @@ void read_field(const FormatFile& file, Words& words, Contents& contents) {
     }
 }
 
+/// Cells are of no use here; both layouts are stepped over: «n size, n lists with their length» and, since version 5, offsets and connectivity.
+void read_cells(const FormatFile& file, Words& words) {
+    const std::size_t count = words.count("the number of cells");
+    const std::size_t size =
+        static_cast<std::size_t>(integer(file, words.next("the size of the list"), "the size of the list", 0, 10 * static_cast<long>(most_spheres)));
+    if (size == 0) return;
+    const Token first = words.next("an index");
+    if (lower_case(first.text) != "offsets") {
+        number(file, first, "an index");
+        words.numbers(size - 1, "an index");
+        return;
+    }
+    words.next("the type of the offsets");
+    words.numbers(count, "an offset");
+    const Token connectivity = words.next("CONNECTIVITY");
+    if (lower_case(connectivity.text) != "connectivity")
+        throw bad_input("CONNECTIVITY expected, not " + quoted(connectivity.text), {}, place_of(file, connectivity));
+    words.next("the type of the indices");
+    words.numbers(size, "an index");
+}
+
 Contents read_contents(const FormatFile& file) {
     const std::vector<Line> lines = lines_of(file);
     if (lines.size() < 4 || lines[0].text.rfind("# vtk DataFile", 0) != 0)
@@ -110,10 +131,7 @@ Contents read_contents(const FormatFile& file) {
             words.next("the type of the points");
             contents.points = words.numbers(3 * count, "a coordinate");
         } else if (key == "vertices" || key == "lines" || key == "polygons" || key == "triangle_strips" || key == "cells") {
-            words.count("the number of cells");
-            words.numbers(
-                static_cast<std::size_t>(integer(file, words.next("the size of the list"), "the size of the list", 0, 10 * static_cast<long>(most_spheres))),
-                "an index");
+            read_cells(file, words);
         } else if (key == "cell_types") {
             words.numbers(words.count("the number of cells"), "a cell type");
         } else if (key == "point_data" || key == "cell_data") {

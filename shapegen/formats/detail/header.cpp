@@ -20,11 +20,20 @@ std::string word_after(std::string_view text, std::string_view key) {
     return std::string(text.substr(0, std::min(text.find_first_of(", \t\r\""), text.size())));
 }
 
+/// The factor of a unit that the file itself names.
+double factor_in_file(const FormatFile& file, const std::string& unit, Dimension dimension) {
+    try {
+        return unit_factor(unit, dimension);
+    } catch (const Error& error) {
+        throw bad_input(error.problem(), error.remedy(), {file.name});
+    }
+}
+
 double unit_of(const FormatFile& file, const std::string& said, const std::string& asked, Dimension dimension, const std::string& quantity,
                const std::string& option) {
     if (said.empty() && asked.empty())
         throw bad_input("this file does not say in which unit its " + quantity + " is", "give the unit, for instance " + option, {file.name});
-    const double by_file = said.empty() ? 0.0 : unit_factor(said, dimension);
+    const double by_file = said.empty() ? 0.0 : factor_in_file(file, said, dimension);
     const double by_option = asked.empty() ? 0.0 : unit_factor(asked, dimension);
     if (!said.empty() && !asked.empty() && by_file != by_option)
         throw bad_input("the file says its " + quantity + " is in " + quoted(said) + ", the option says " + quoted(asked), "leave the option away",

@@ -110,6 +110,16 @@ TEST(Units, MustAgreeWithTheFile) {
     EXPECT_NE(problem_of([&] { find("liggghts").read(files, {"cm", ""}); }).find("the file says its length is in 'mm'"), std::string::npos);
 }
 
+TEST(Units, AnUnknownOneInTheFileNamesTheFile) {
+    try {
+        find("liggghts").read({{"pellet.txt", "# PelletLab clump: name a, length in mmm, mass in kg\n0 0 0 1\n"}}, {});
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.place().file, "pellet.txt");
+        EXPECT_NE(error.problem().find("mmm"), std::string::npos) << error.problem();
+    }
+}
+
 TEST(Units, UnknownOnesAreRefused) {
     EXPECT_NE(problem_of([] { find("csv").read({{"f", "x [furlong],y,z,r\n0,0,0,1\n"}}, {}); }).find("furlong"), std::string::npos);
     WriteOptions options;

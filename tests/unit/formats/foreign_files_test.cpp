@@ -126,6 +126,17 @@ TEST(Foreign, VtkUnstructuredGridWithOtherArrays) {
     EXPECT_EQ(clump.spheres[1].radius, 0.00075);
 }
 
+TEST(Foreign, VtkVersion5WithOffsetsAndMetadata) {
+    const char* text =
+        "# vtk DataFile Version 5.1\nvtk output\nASCII\nDATASET POLYDATA\nPOINTS 2 double\n0 0 0 1 0 0 \n\nMETADATA\nINFORMATION 2\nNAME L2_NORM_RANGE "
+        "LOCATION "
+        "vtkDataArray\nDATA 2 0 1 \nNAME L2_NORM_FINITE_RANGE LOCATION vtkDataArray\nDATA 2 0 1 \n\nVERTICES 3 2\nOFFSETS vtktypeint64\n0 1 2 \nCONNECTIVITY "
+        "vtktypeint64\n0 1 \nPOINT_DATA 2\nSCALARS radius double\nLOOKUP_TABLE default\n0.5 0.75 \n";
+    const ImportedClump clump = find("vtk").read({{"f.vtk", text}}, {"mm", ""});
+    ASSERT_EQ(clump.spheres.size(), 2U);
+    EXPECT_EQ(clump.spheres[1].centre.x(), 0.001);
+}
+
 TEST(Foreign, AnInertiaNoBodyHasIsNoted) {
     const char* text = "#\n1 atoms\n1 mass\n0 0 0 com\n1 1 3 0 0 0 inertia\n\nCoords\n\n1 0 0 0\n\nDiameters\n\n1 1\n";
     EXPECT_EQ(find("lammps").read({{"m", text}}, {"m", "kg"}).notes.size(), 1U);

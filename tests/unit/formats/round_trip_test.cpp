@@ -92,6 +92,11 @@ TEST_P(RoundTrip, WritesTheSameBytesTwice) {
     for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i].content, second[i].content);
 }
 
+TEST_P(RoundTrip, WritesPlainAscii) {  // LAMMPS and others stumble over anything else
+    for (const FormatFile& file : GetParam().write(test_clump(), {}))
+        for (const char c : file.content) ASSERT_TRUE(c == '\n' || c == '\t' || (c >= ' ' && c <= '~')) << file.name << ": " << static_cast<int>(c);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, RoundTrip, testing::ValuesIn(readable()), [](const auto& test) { return test.param.id; });
 
 TEST(FormatTable, IdsAndExtensionsAreUniqueAndDescribed) {
