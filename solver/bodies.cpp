@@ -48,9 +48,61 @@ BodyTemplate make_body_template(const RigidTemplate& rigid) {
     return t;
 }
 
+MotionConstants motion_constants(const BodyTemplate& t) {
+    return {{t.inverse_mass, t.mass, t.inverse_inertia.x(), t.inverse_inertia.y(), t.inverse_inertia.z(), t.inverse_transverse, t.axial_excess, t.second_excess,
+             t.axis.x(), t.axis.y(), t.axis.z(), t.second_axis.x(), t.second_axis.y(), t.second_axis.z(), t.largest_offset, 1.0 / t.smallest_inertia}};
+}
+
+template <class Self, class Visit>
+void Bodies::each_column(Self& self, const Visit& visit) {
+    for (auto& c : self.position_) visit(c);
+    for (auto& c : self.turn_) visit(c);
+    for (auto* group : {&self.velocity_, &self.momentum_, &self.force_, &self.torque_})
+        for (auto& c : *group) visit(c);
+}
+
 void Bodies::resize(std::size_t n) {
-    template_index.resize(n, 0);
-    each_array([n](std::vector<double>& a) { a.resize(n, 0.0); });
+    const std::size_t padded = padded_count(n);
+    for (std::size_t i = n; i < count_; ++i) set_numbers(i, {});  // the padding holds zeros
+    for (std::size_t i = n; i < count_; ++i) template_index_[i] = 0;
+    count_ = n;
+    template_index_.resize(padded, 0);
+    each_column(*this, [padded](std::vector<double>& c) { c.resize(padded, 0.0); });
+    for (auto& c : reference_) c.resize(padded, 0.0);
+}
+
+void Bodies::mark_reference() {
+    reference_ = position_;
+}
+
+BodyArrays Bodies::arrays(const MotionConstants* constants, Kinematic* records) {
+    BodyArrays a{};
+    a.count = count_;
+    for (std::size_t k = 0; k < 3; ++k) {
+        a.position[k] = position_[k].data();
+        a.velocity[k] = velocity_[k].data();
+        a.momentum[k] = momentum_[k].data();
+        a.force[k] = force_[k].data();
+        a.torque[k] = torque_[k].data();
+        a.reference[k] = reference_[k].data();
+    }
+    for (std::size_t k = 0; k < 4; ++k) a.turn[k] = turn_[k].data();
+    a.template_index = template_index_.data();
+    a.constants = constants;
+    a.records = records;
+    return a;
+}
+
+std::array<double, Bodies::number_count> Bodies::numbers(std::size_t i) const {
+    std::array<double, number_count> values{};
+    std::size_t k = 0;
+    each_column(*this, [&](const std::vector<double>& c) { values[k++] = c[i]; });
+    return values;
+}
+
+void Bodies::set_numbers(std::size_t i, const std::array<double, number_count>& values) {
+    std::size_t k = 0;
+    each_column(*this, [&](std::vector<double>& c) { c[i] = values[k++]; });
 }
 
 }  // namespace pelletlab::solver::detail

@@ -74,7 +74,7 @@ NeighbourRows find_neighbours(const Bodies& bodies, const std::vector<BodyTempla
         for (std::size_t i = begin; i < end; ++i) {
             const std::size_t start = list.size();
             const Vec3 p = bodies.position(i);
-            const double reach = templates[bodies.template_index[i]].bounding_radius + skin;
+            const double reach = templates[bodies.template_of(i)].bounding_radius + skin;
             const auto c = grid.cell_of(p);
             for (std::int64_t z = std::max<std::int64_t>(c[2] - 1, 0); z <= std::min(c[2] + 1, grid.count[2] - 1); ++z) {
                 for (std::int64_t y = std::max<std::int64_t>(c[1] - 1, 0); y <= std::min(c[1] + 1, grid.count[1] - 1); ++y) {
@@ -84,7 +84,7 @@ NeighbourRows find_neighbours(const Bodies& bodies, const std::vector<BodyTempla
                     for (std::uint32_t m = grid.first[from]; m < grid.first[to + 1]; ++m) {
                         const std::uint32_t j = grid.member[m];
                         if (j <= i) continue;
-                        const double distance = reach + templates[bodies.template_index[j]].bounding_radius;
+                        const double distance = reach + templates[bodies.template_of(j)].bounding_radius;
                         if ((bodies.position(j) - p).squaredNorm() < distance * distance) list.push_back(j);
                     }
                 }

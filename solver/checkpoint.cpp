@@ -17,7 +17,7 @@ namespace pelletlab::solver {
 namespace {
 
 constexpr std::array<char, 8> magic{'P', 'L', 'A', 'B', 'C', 'K', 'P', 'T'};
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 
 struct Header {
     std::array<char, 8> magic;
@@ -128,14 +128,14 @@ std::vector<char> payload_of(const Simulation::State& s) {
     Writer w;
     w.put(s.steps);
     w.put(static_cast<std::uint64_t>(s.bodies.size()));
-    for (const std::uint32_t t : s.bodies.template_index) w.put(t);
-    s.bodies.each_array([&](const std::vector<double>& a) {
-        for (const double x : a) w.put(x);
-    });
+    for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+        w.put(s.bodies.template_of(i));
+        w.put(s.bodies.numbers(i));
+    }
     std::vector<SavedSpring> springs;
     for (std::size_t k = 0; k < s.pairs.records.size(); ++k) {
         const detail::PairRecord& r = s.pairs.records[k];
-        const detail::PairBlock& block = s.pairs.blocks[k / detail::PairBlock::pairs_per_block];
+        const detail::PairBlock& block = s.pairs.blocks[k / detail::pairs_per_block];
         for (std::size_t c = r.first; c < r.first + std::size_t{r.count}; ++c)
             if (block.candidates[c].touching()) springs.push_back({r.i, r.j, block.candidates[c].sphere_a(), block.candidates[c].b, block.springs[c]});
     }
@@ -166,15 +166,15 @@ Saved read_payload(const std::vector<char>& bytes, const std::string& file, cons
     Reader r(bytes, file);
     Saved saved;
     saved.steps = r.get<std::uint64_t>();
-    const std::size_t n = r.get_count(sizeof(std::uint32_t));
+    using Numbers = std::array<double, detail::Bodies::number_count>;
+    const std::size_t n = r.get_count(sizeof(std::uint32_t) + sizeof(Numbers));
     saved.bodies.resize(n);
-    for (std::uint32_t& t : saved.bodies.template_index) {
-        t = r.get<std::uint32_t>();
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto t = r.get<std::uint32_t>();
         if (t >= s.templates.size()) r.broken();
+        saved.bodies.set_template(i, t);
+        saved.bodies.set_numbers(i, r.get<Numbers>());
     }
-    saved.bodies.each_array([&](std::vector<double>& a) {
-        for (double& x : a) x = r.get<double>();
-    });
     const std::size_t spring_count = r.get_count(sizeof(SavedSpring));
     for (std::size_t k = 0; k < spring_count; ++k) {
         saved.springs.push_back(r.get<SavedSpring>());
@@ -194,7 +194,7 @@ Saved read_payload(const std::vector<char>& bytes, const std::string& file, cons
         for (std::size_t k = 0; k < count; ++k) {
             SavedHistory h{r.get<std::uint32_t>(), r.get<std::uint32_t>(), r.get<std::uint32_t>(), Vec3::Zero(), Vec3::Zero()};
             h.normal = r.get_vec(), h.spring = r.get_vec();
-            if (h.body >= n || h.sphere >= s.templates[saved.bodies.template_index[h.body]].balls.size() || h.patch >= wall.mesh.patch_count) r.broken();
+            if (h.body >= n || h.sphere >= s.templates[saved.bodies.template_of(h.body)].balls.size() || h.patch >= wall.mesh.patch_count) r.broken();
             w.history.push_back(h);
         }
         saved.walls.push_back(std::move(w));
@@ -213,9 +213,9 @@ bool install(Simulation::State& s, const Saved& saved) {
     std::size_t next = 0;
     for (std::size_t k = 0; k < s.pairs.records.size(); ++k) {
         detail::PairRecord& record = s.pairs.records[k];
-        detail::PairBlock& block = s.pairs.blocks[k / detail::PairBlock::pairs_per_block];
+        detail::PairBlock& block = s.pairs.blocks[k / detail::pairs_per_block];
         if (next == saved.springs.size() || saved.springs[next].i != record.i || saved.springs[next].j != record.j) continue;
-        detail::refresh_candidates(block, record, s.templates[s.bodies.template_index[record.i]], s.templates[s.bodies.template_index[record.j]],
+        detail::refresh_candidates(block, record, s.templates[s.bodies.template_of(record.i)], s.templates[s.bodies.template_of(record.j)],
                                    detail::relative_pose(s.kinematics[record.i], s.kinematics[record.j]), s.pairs.pair_skin);
         for (std::size_t c = record.first; c < record.first + std::size_t{record.count} && next < saved.springs.size(); ++c) {
             const SavedSpring& spring = saved.springs[next];
@@ -292,13 +292,11 @@ void Simulation::load_checkpoint(const std::filesystem::path& file) {
         detail::move_wall(wall, s.steps, s.definition.time_step);
         s.wall_loads[k] = saved.walls[k].load;
     }
-    const std::uint64_t rebuilds = s.pairs.rebuilds;
-    const double skin = s.pairs.skin, pair_skin = s.pairs.pair_skin;
-    s.pairs = {};
-    s.pairs.skin = skin, s.pairs.pair_skin = pair_skin, s.pairs.rebuilds = rebuilds;
+    detail::PairList fresh;
+    fresh.skin = s.pairs.skin, fresh.pair_skin = s.pairs.pair_skin;
+    s.pairs = std::move(fresh);
     s.fit_to_body_count();
-    for (std::size_t i = 0; i < s.bodies.size(); ++i) detail::fill_record(s.bodies, s.templates[s.bodies.template_index[i]], i, s.kinematics[i]);
-    detail::rebuild_pairs(s.pairs, s.bodies, s.templates);
+    for (std::size_t i = 0; i < s.bodies.size(); ++i) detail::fill_record(s.bodies, s.templates[s.bodies.template_of(i)], i, s.kinematics[i]);
     s.view_is_current = false;
     if (!install(s, saved)) throw bad_input("the checkpoint holds contacts of spheres that are far apart", "it is damaged: use an older one", {file.string()});
 }

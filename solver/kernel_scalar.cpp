@@ -1,15 +1,11 @@
 // The scalar twin of the kernels: what the SIMD files must reproduce bit for bit.
-#include "solver/detail/contact_kernel_impl.hpp"
+#include "solver/detail/pair_kernel_impl.hpp"
 
 namespace pelletlab::solver::detail {
 
 const Kernels& scalar_kernels() {
-    static constexpr Kernels kernels{"scalar", &contact_forces<ScalarLanes, HertzMindlinEdem, RollingConstantTorque>};
+    static constexpr Kernels kernels = make_kernels<ScalarLanes, ScalarLanes>("scalar");
     return kernels;
-}
-
-const Kernels& best_kernels() {
-    return scalar_kernels();
 }
 
 }  // namespace pelletlab::solver::detail

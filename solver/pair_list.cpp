@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "solver/detail/motion.hpp"
 
@@ -10,13 +11,21 @@ namespace pelletlab::solver::detail {
 
 namespace {
 
+constexpr std::size_t most_candidates = 65000;  ///< a record counts them in 16 bits
+
+std::size_t padded(std::size_t count) {
+    return (count + PairBlock::candidate_padding - 1) / PairBlock::candidate_padding * PairBlock::candidate_padding;
+}
+
 /// Copies candidates and springs of one record from its old block to the end of another.
 void carry_over(const PairBlock& from, const PairRecord& old, PairBlock& to, PairRecord& fresh) {
     fresh = old;
     fresh.first = static_cast<std::uint32_t>(to.candidates.size());
-    fresh.capacity = old.count;
+    fresh.capacity = static_cast<std::uint16_t>(padded(old.count));
     to.candidates.insert(to.candidates.end(), from.candidates.begin() + old.first, from.candidates.begin() + old.first + old.count);
     to.springs.insert(to.springs.end(), from.springs.begin() + old.first, from.springs.begin() + old.first + old.count);
+    to.candidates.resize(padded(to.candidates.size()), Candidate{0, 0});
+    to.springs.resize(to.candidates.size(), Spring{0.0, 0.0, 0.0});
 }
 
 /// Candidates of a pair and how far apart the nearest spheres are that are not candidates (at least).
@@ -30,7 +39,7 @@ void search(const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& 
     found.candidates.clear();
     found.nearest_other = reach;
     const Matrix3 r = matrix_of(pose.q[0], pose.q[1], pose.q[2], pose.q[3]);
-    thread_local std::vector<BodyTemplate::Ball> near_j;  // scratch
+    thread_local std::vector<Ball> near_j;  // scratch
     thread_local std::vector<std::uint16_t> index_j;
     near_j.clear();
     index_j.clear();
@@ -69,11 +78,13 @@ void search(const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& 
 }  // namespace
 
 RelativePose relative_pose(const Kinematic& i, const Kinematic& j) {
-    const Matrix3 frame = matrix_of(i.q[0], i.q[1], i.q[2], i.q[3]);
-    const double d[3] = {j.p[0] - i.p[0], j.p[1] - i.p[1], j.p[2] - i.p[2]};
+    const double *a = i.turn(), *b = j.turn();
+    const Matrix3 frame = matrix_of(a[0], a[1], a[2], a[3]);
+    double d[3];
+    for (int k = 0; k < 3; ++k) d[k] = j.position()[k] - i.position()[k];
     RelativePose pose;
     for (int k = 0; k < 3; ++k) pose.p[k] = frame.m[0][k] * d[0] + frame.m[1][k] * d[1] + frame.m[2][k] * d[2];
-    const Quaternion turn = product({i.q[0], -i.q[1], -i.q[2], -i.q[3]}, {j.q[0], j.q[1], j.q[2], j.q[3]});
+    const Quaternion turn = product({a[0], -a[1], -a[2], -a[3]}, {b[0], b[1], b[2], b[3]});
     pose.q[0] = turn.w, pose.q[1] = turn.x, pose.q[2] = turn.y, pose.q[3] = turn.z;
     return pose;
 }
@@ -82,7 +93,7 @@ void refresh_candidates(PairBlock& block, PairRecord& record, const BodyTemplate
     thread_local Search found;  // scratch
     thread_local std::vector<Spring> springs;
     search(ti, tj, pose, skin, 6.0 * skin, found);
-    springs.assign(found.candidates.size(), Spring{});
+    springs.assign(found.candidates.size(), Spring{0.0, 0.0, 0.0});
     std::size_t old = record.first;
     const std::size_t old_end = record.first + record.count;
     for (std::size_t k = 0; k < found.candidates.size(); ++k) {  // both lists are sorted by key
@@ -93,34 +104,37 @@ void refresh_candidates(PairBlock& block, PairRecord& record, const BodyTemplate
         }
     }
     const std::size_t count = found.candidates.size();
+    if (count > most_candidates)
+        throw bad_input("two bodies have more than 65000 pairs of spheres within reach of each other", "use templates with fewer spheres");
     if (count > record.capacity) {
-        const std::size_t capacity = std::min<std::size_t>((count + 3) / 4 * 4, 65535);
+        const std::size_t capacity = padded(count);
         record.first = static_cast<std::uint32_t>(block.candidates.size());
         record.capacity = static_cast<std::uint16_t>(capacity);
         block.candidates.resize(record.first + capacity, Candidate{0, 0});
-        block.springs.resize(record.first + capacity);
+        block.springs.resize(record.first + capacity, Spring{0.0, 0.0, 0.0});
     }
     std::copy(found.candidates.begin(), found.candidates.end(), block.candidates.begin() + record.first);
     std::copy(springs.begin(), springs.end(), block.springs.begin() + record.first);
     record.count = static_cast<std::uint16_t>(count);
-    for (int k = 0; k < 3; ++k) record.place[k] = static_cast<float>(pose.p[k]);
-    for (int k = 0; k < 4; ++k) record.turn[k] = static_cast<float>(pose.q[k]);
+    for (int k = 0; k < 3; ++k) record.reference[k] = static_cast<float>(pose.p[k]);
+    for (int k = 0; k < 4; ++k) record.reference[3 + k] = static_cast<float>(pose.q[k]);
     // The reference pose is kept in float: its rounding is taken off the allowance.
     const double rounding = 2.5e-7 * (std::abs(pose.p[0]) + std::abs(pose.p[1]) + std::abs(pose.p[2]) + 4.0 * tj.largest_offset);
-    record.allowance = static_cast<float>(std::max(0.0, found.nearest_other * 0.999999 - rounding));
+    record.reference[7] = static_cast<float>(std::max(0.0, found.nearest_other * 0.999999 - rounding));
 }
 
-void rebuild_pairs(PairList& list, const Bodies& bodies, const std::vector<BodyTemplate>& templates) {
+void rebuild_pairs(PairList& list, Bodies& bodies, const std::vector<BodyTemplate>& templates) {
     PairList old;
     old.rows = std::move(list.rows);
     old.records = std::move(list.records);
     old.blocks = std::move(list.blocks);
     list.rows = find_neighbours(bodies, templates, list.skin);
     const std::size_t n = bodies.size(), pair_count = list.rows.partner.size();
-    const std::size_t grain = PairBlock::pairs_per_block;
-    list.records.assign(pair_count, {});
+    const std::size_t grain = pairs_per_block;
+    list.records.assign(pair_count, PairRecord{{0, 0, 0, 1, 0, 0, 0, -1}, 0, 0, 0, 0, 0, 0, 0});
     list.blocks.assign((pair_count + grain - 1) / grain, {});
-    list.loads.assign(pair_count, {});
+    list.loads_i.resize(pair_count);
+    list.loads_j.resize(pair_count);
     list.touching.assign(pair_count, 0);
 
     std::vector<std::uint32_t> owner(pair_count);
@@ -132,6 +146,8 @@ void rebuild_pairs(PairList& list, const Bodies& bodies, const std::vector<BodyT
             PairRecord& record = list.records[k];
             record.i = owner[k];
             record.j = list.rows.partner[k];
+            record.template_i = static_cast<std::uint16_t>(bodies.template_of(record.i));
+            record.template_j = static_cast<std::uint16_t>(bodies.template_of(record.j));
             if (record.i + 1 >= old.rows.first.size()) continue;
             const auto from = old.rows.partner.begin() + old.rows.first[record.i], to = old.rows.partner.begin() + old.rows.first[record.i + 1];
             const auto found = std::lower_bound(from, to, record.j);
@@ -148,8 +164,8 @@ void rebuild_pairs(PairList& list, const Bodies& bodies, const std::vector<BodyT
     std::vector<std::uint32_t> next(list.incoming_first.begin(), list.incoming_first.end() - 1);
     for (std::size_t k = 0; k < pair_count; ++k) list.incoming[next[list.rows.partner[k]]++] = static_cast<std::uint32_t>(k);
 
-    list.reference.resize(n);
-    for (std::size_t i = 0; i < n; ++i) list.reference[i] = bodies.position(i);
+    bodies.mark_reference();
+    list.body_count = n;
     ++list.rebuilds;
 }
 

@@ -47,9 +47,13 @@ Box default_domain(const SimulationDefinition& d) {
     return {box.min() - margin, box.max() + margin};
 }
 
+Pose pose_of(const detail::Kinematic& k) {
+    return {Vec3(k.position()[0], k.position()[1], k.position()[2]), Quat(k.turn()[0], k.turn()[1], k.turn()[2], k.turn()[3])};
+}
+
 /// Deepest overlap of two bodies against the smaller of their smallest radii.
 double deepest_overlap(const detail::Kinematic& a, const detail::BodyTemplate& ta, const detail::Kinematic& b, const detail::BodyTemplate& tb) {
-    const Pose pa{Vec3(a.p[0], a.p[1], a.p[2]), Quat(a.q[0], a.q[1], a.q[2], a.q[3])}, pb{Vec3(b.p[0], b.p[1], b.p[2]), Quat(b.q[0], b.q[1], b.q[2], b.q[3])};
+    const Pose pa = pose_of(a), pb = pose_of(b);
     double deepest = 0.0;
     for (const auto& s : ta.balls) {
         const Vec3 c = pb.to_body(pa.to_world({s.x, s.y, s.z}));
@@ -57,6 +61,15 @@ double deepest_overlap(const detail::Kinematic& a, const detail::BodyTemplate& t
         for (const auto& t : tb.balls) deepest = std::max(deepest, s.r + t.r - (c - Vec3(t.x, t.y, t.z)).norm());
     }
     return deepest / std::min(ta.smallest_radius, tb.smallest_radius);
+}
+
+const detail::Kernels* choose_kernels(InstructionSet wanted) {
+    const detail::Kernels* kernels = &detail::best_kernels();
+    if (wanted == InstructionSet::scalar) kernels = &detail::scalar_kernels();
+    if (wanted == InstructionSet::avx2) kernels = detail::avx2_kernels();
+    if (wanted == InstructionSet::avx512) kernels = detail::avx512_kernels();
+    if (!kernels) throw bad_input("this processor lacks the instruction set that was asked for", "leave the choice to the program");
+    return kernels;
 }
 
 std::string place(const Vec3& p) {
@@ -94,8 +107,12 @@ Simulation::State::State(SimulationDefinition given) : definition(std::move(give
         templates.push_back(detail::make_body_template(t));
         largest = std::max(largest, templates.back().bounding_radius);
     }
+    for (const detail::BodyTemplate& t : templates) {
+        balls.push_back(t.balls.data());
+        constants.push_back(detail::motion_constants(t));
+    }
     pellet_law = detail::make_law_row(d.pellet_material, d.pellet_material, d.pellet_contact, "pellet-pellet");
-    kernels = &detail::best_kernels();
+    kernels = choose_kernels(d.instructions);
     pairs.skin = d.skins.bodies > 0.0 ? d.skins.bodies : 0.15 * largest;
     pairs.pair_skin = d.skins.spheres > 0.0 ? d.skins.spheres : 0.02 * largest;
     wall_skins.faces = d.skins.wall_faces > 0.0 ? d.skins.wall_faces : 0.25 * largest;
@@ -109,16 +126,13 @@ Simulation::State::State(SimulationDefinition given) : definition(std::move(give
 
 void Simulation::State::fit_to_body_count() {
     const std::size_t n = bodies.size();
-    kinematics.resize(n);
+    kinematics.resize(detail::padded_count(n));
     for (detail::Wall& wall : walls) {
         wall.watches.resize(n);
         wall.loads.resize(n);
         wall.touching.resize(n, 0);
     }
-    if (pairs.reference.size() != n) {
-        pairs.reference.clear();
-        detail::rebuild_pairs(pairs, bodies, templates);
-    }
+    if (pairs.body_count != n || pairs.rebuilds == 0) detail::rebuild_pairs(pairs, bodies, templates);
 }
 
 Simulation::Simulation(SimulationDefinition definition) : state_(std::make_unique<State>(std::move(definition))) {}
@@ -147,20 +161,19 @@ void Simulation::add_bodies(std::span<const BodyPlacement> added) {
         detail::Bodies& all = s.bodies;
         const detail::BodyTemplate& t = s.templates[b.template_index];
         const Quat q = b.pose.orientation.normalized();
-        const Vec3 l = detail::angular_momentum_of(t, q, b.spin);
-        all.template_index[i] = b.template_index;
-        all.px[i] = b.pose.position.x(), all.py[i] = b.pose.position.y(), all.pz[i] = b.pose.position.z();
-        all.qw[i] = q.w(), all.qx[i] = q.x(), all.qy[i] = q.y(), all.qz[i] = q.z();
-        all.vx[i] = b.velocity.x(), all.vy[i] = b.velocity.y(), all.vz[i] = b.velocity.z();
-        all.lx[i] = l.x(), all.ly[i] = l.y(), all.lz[i] = l.z();
+        all.set_template(i, b.template_index);
+        all.set_position(i, b.pose.position);
+        all.set_orientation(i, q);
+        all.set_velocity(i, b.velocity);
+        all.set_angular_momentum(i, detail::angular_momentum_of(t, q, b.spin));
     }
     s.fit_to_body_count();
-    for (std::size_t i = 0; i < n; ++i) detail::fill_record(s.bodies, s.templates[s.bodies.template_index[i]], i, s.kinematics[i]);
+    for (std::size_t i = 0; i < n; ++i) detail::fill_record(s.bodies, s.templates[s.bodies.template_of(i)], i, s.kinematics[i]);
 
     for (const detail::PairRecord& pair : s.pairs.records) {
         if (pair.j < before) continue;
-        const double ratio = deepest_overlap(s.kinematics[pair.i], s.templates[s.bodies.template_index[pair.i]], s.kinematics[pair.j],
-                                             s.templates[s.bodies.template_index[pair.j]]);
+        const double ratio =
+            deepest_overlap(s.kinematics[pair.i], s.templates[s.bodies.template_of(pair.i)], s.kinematics[pair.j], s.templates[s.bodies.template_of(pair.j)]);
         if (ratio <= overlap_allowed_at_start) continue;
         std::ostringstream text;
         text << "bodies " << pair.i << " and " << pair.j << " overlap by " << 100.0 * ratio << " % of their smallest sphere's radius, near "
@@ -171,7 +184,7 @@ void Simulation::add_bodies(std::span<const BodyPlacement> added) {
     std::vector<detail::WallOverlap> overlaps;
     for (const detail::Wall& wall : s.walls)
         for (std::size_t i = before; i < n; ++i) {
-            const detail::BodyTemplate& t = s.templates[s.bodies.template_index[i]];
+            const detail::BodyTemplate& t = s.templates[s.bodies.template_of(i)];
             overlaps.clear();
             detail::wall_overlaps(wall, s.kinematics[i], t, overlaps);
             for (const detail::WallOverlap& o : overlaps) {
@@ -215,13 +228,14 @@ const BodyState& Simulation::bodies() const {
     if (!s.view_is_current) {
         const std::size_t n = s.bodies.size();
         BodyState& v = s.view;
-        v.template_index = s.bodies.template_index;
-        v.position.resize(n), v.orientation.resize(n), v.velocity.resize(n), v.spin.resize(n), v.force.resize(n), v.torque.resize(n);
+        v.template_index.resize(n), v.position.resize(n), v.orientation.resize(n), v.velocity.resize(n), v.spin.resize(n), v.force.resize(n),
+            v.torque.resize(n);
         for (std::size_t i = 0; i < n; ++i) {
+            v.template_index[i] = s.bodies.template_of(i);
             v.position[i] = s.bodies.position(i);
             v.orientation[i] = s.bodies.orientation(i);
             v.velocity[i] = s.bodies.velocity(i);
-            v.spin[i] = detail::spin_of(s.templates[s.bodies.template_index[i]], v.orientation[i], s.bodies.angular_momentum(i));
+            v.spin[i] = detail::spin_of(s.templates[s.bodies.template_of(i)], v.orientation[i], s.bodies.angular_momentum(i));
             v.force[i] = s.bodies.force(i);
             v.torque[i] = s.bodies.torque(i);
         }
@@ -261,9 +275,9 @@ std::vector<ContactPoint> Simulation::contact_points() const {
     std::vector<ContactPoint> points;
     for (std::size_t k = 0; k < s.pairs.records.size(); ++k) {
         const detail::PairRecord& r = s.pairs.records[k];
-        const detail::PairBlock& block = s.pairs.blocks[k / detail::PairBlock::pairs_per_block];
+        const detail::PairBlock& block = s.pairs.blocks[k / detail::pairs_per_block];
         const Pose pi{s.bodies.position(r.i), s.bodies.orientation(r.i)}, pj{s.bodies.position(r.j), s.bodies.orientation(r.j)};
-        const auto &ti = s.templates[s.bodies.template_index[r.i]], &tj = s.templates[s.bodies.template_index[r.j]];
+        const auto &ti = s.templates[s.bodies.template_of(r.i)], &tj = s.templates[s.bodies.template_of(r.j)];
         for (std::size_t c = r.first; c < r.first + std::size_t{r.count}; ++c) {
             const detail::Candidate& candidate = block.candidates[c];
             const auto &a = ti.balls[candidate.sphere_a()], &b = tj.balls[candidate.b];
@@ -280,7 +294,7 @@ std::vector<ContactPoint> Simulation::contact_points() const {
             const detail::WallWatch& watch = s.walls[w].watches[i];
             if (!watch.near) continue;
             overlaps.clear();
-            detail::wall_overlaps(s.walls[w], s.kinematics[i], s.templates[s.bodies.template_index[i]], overlaps);
+            detail::wall_overlaps(s.walls[w], s.kinematics[i], s.templates[s.bodies.template_of(i)], overlaps);
             for (const detail::WallOverlap& o : overlaps) {
                 ContactPoint point{i, o.sphere, static_cast<std::int32_t>(w), 0, 0, s.walls[w].pose.orientation * o.normal, o.overlap, Vec3::Zero()};
                 for (const detail::WallHistory& h : watch.near->history)
@@ -296,13 +310,13 @@ ContactSummary Simulation::contacts() const {
     ContactSummary sum;
     std::uint64_t last_pair = UINT64_MAX;
     for (const ContactPoint& c : contact_points()) {
-        const auto& ti = s.templates[s.bodies.template_index[c.body_i]];
+        const auto& ti = s.templates[s.bodies.template_of(c.body_i)];
         double radius = ti.balls[c.sphere_i].r;
         if (c.wall >= 0) {
             ++sum.wall_contacts;
         } else {
             ++sum.sphere_contacts;
-            radius = std::min(radius, s.templates[s.bodies.template_index[c.body_j]].balls[c.sphere_j].r);
+            radius = std::min(radius, s.templates[s.bodies.template_of(c.body_j)].balls[c.sphere_j].r);
             const std::uint64_t pair = (std::uint64_t{c.body_i} << 32) | c.body_j;
             if (pair != last_pair) ++sum.touching_pairs;
             last_pair = pair;
@@ -316,7 +330,7 @@ EnergyReport Simulation::energy() const {
     const State& s = *state_;
     EnergyReport e;
     for (std::size_t i = 0; i < s.bodies.size(); ++i) {
-        const detail::BodyTemplate& t = s.templates[s.bodies.template_index[i]];
+        const detail::BodyTemplate& t = s.templates[s.bodies.template_of(i)];
         const Vec3 l = s.bodies.angular_momentum(i);
         e.kinetic_translation += 0.5 * t.mass * s.bodies.velocity(i).squaredNorm();
         e.kinetic_rotation += 0.5 * l.dot(detail::spin_of(t, s.bodies.orientation(i), l));
@@ -329,13 +343,13 @@ std::uint64_t Simulation::state_hash() const {
     const State& s = *state_;
     detail::Hash hash;
     hash.add(s.steps);
-    for (const std::uint32_t t : s.bodies.template_index) hash.add(std::uint64_t{t});
-    s.bodies.each_array([&](const std::vector<double>& a) {
-        for (const double x : a) hash.add(x);
-    });
+    for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+        hash.add(std::uint64_t{s.bodies.template_of(i)});
+        for (const double x : s.bodies.numbers(i)) hash.add(x);
+    }
     for (std::size_t k = 0; k < s.pairs.records.size(); ++k) {
         const detail::PairRecord& r = s.pairs.records[k];
-        const detail::PairBlock& block = s.pairs.blocks[k / detail::PairBlock::pairs_per_block];
+        const detail::PairBlock& block = s.pairs.blocks[k / detail::pairs_per_block];
         for (std::size_t c = r.first; c < r.first + std::size_t{r.count}; ++c) {
             if (!block.candidates[c].touching()) continue;
             hash.add((std::uint64_t{r.i} << 32) | r.j);

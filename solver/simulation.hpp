@@ -55,6 +55,9 @@ struct SearchSkins {
     double wall_candidates = 0.0;  ///< between spheres and wall faces
 };
 
+/// Instructions of the inner loops. All give the same bits; `fastest` takes the best that the processor has.
+enum class InstructionSet { fastest, scalar, avx2, avx512 };
+
 struct SimulationDefinition {
     std::vector<RigidTemplate> templates;
     ElasticMaterial pellet_material;
@@ -64,6 +67,7 @@ struct SimulationDefinition {
     double time_step = 1e-5;           ///< [s]
     Box domain;                        ///< a body whose centre leaves it is an Error(numerical) with place, time and cause; empty: the walls' box, enlarged
     SearchSkins skins;
+    InstructionSet instructions = InstructionSet::fastest;
 };
 
 struct BodyPlacement {

@@ -37,18 +37,17 @@ void Simulation::step() {
     const detail::StepClock clock{s.definition.time_step, s.definition.time_step};
     s.view_is_current = false;
     StopWatch watch(s.stage_seconds);
-    s.kick_and_drift_bodies();
+    const double furthest2 = s.kick_and_drift_bodies();
     watch.lap(0);
     s.move_walls();
     watch.lap(1);
-    s.find_neighbours_if_needed();
+    s.find_neighbours_if_needed(furthest2);
     watch.lap(2);
     s.compute_pair_forces(clock);
     watch.lap(3);
     s.compute_wall_forces(clock);
     watch.lap(4);
-    s.gather_forces();
-    s.kick_bodies();
+    s.gather_forces_and_kick(0.5 * s.definition.time_step);
     s.sum_wall_loads();
     watch.lap(5);
 }
@@ -67,11 +66,11 @@ Error lost_body(const Simulation::State& s, std::size_t i) {
     if (p.allFinite() && s.bodies.angular_momentum(i).allFinite()) {
         text << " left the domain at (" << p.x() << ", " << p.y() << ", " << p.z() << ") m with a speed of " << v.norm() << " m/s";
     } else {
-        const Vec3 d = s.kinematics.size() > i ? Vec3(s.bodies.fx[i], s.bodies.fy[i], s.bodies.fz[i]) : Vec3::Zero();
+        const Vec3 d = s.kinematics.size() > i ? s.bodies.force(i) : Vec3::Zero();
         text << " has a position or a spin that is not a number (last force " << d.norm() << " N)";
     }
     text << ", time " << s.time() << " s, step " << s.steps;
-    const double length = s.templates[s.bodies.template_index[i]].bounding_radius;
+    const double length = s.templates[s.bodies.template_of(i)].bounding_radius;
     const bool fast = !(v.norm() * s.definition.time_step < 0.05 * length);
     return numerical_failure(text.str(), fast
                                              ? "the speed says that contacts became unstable: use a smaller time step (advise_time_step), or check that bodies "
@@ -81,51 +80,40 @@ Error lost_body(const Simulation::State& s, std::size_t i) {
 
 }  // namespace
 
-void Simulation::State::kick_and_drift_bodies() {
+double Simulation::State::kick_and_drift_bodies() {
     const std::size_t n = bodies.size();
-    const double dt = definition.time_step;
-    const Vec3 low = domain.min(), high = domain.max();
-    std::vector<std::size_t> lost((n + body_grain - 1) / body_grain, n);
+    detail::DriftSettings settings{definition.time_step, {}, {}};
+    for (int k = 0; k < 3; ++k) settings.low[k] = domain.min()[k], settings.high[k] = domain.max()[k];
+    const detail::BodyArrays arrays = bodies.arrays(constants.data(), kinematics.data());
+    drift_results.resize((n + body_grain - 1) / body_grain);
     parallel_blocks(n, body_grain, [&](std::size_t begin, std::size_t end) {
-        std::size_t first_lost = n;
-        for (std::size_t i = end; i-- > begin;) {
-            detail::kick_and_drift(bodies, templates[bodies.template_index[i]], i, dt, kinematics[i]);
-            const bool inside = bodies.px[i] >= low.x() && bodies.px[i] <= high.x() && bodies.py[i] >= low.y() && bodies.py[i] <= high.y() &&
-                                bodies.pz[i] >= low.z() && bodies.pz[i] <= high.z() && std::isfinite(bodies.lx[i] + bodies.ly[i] + bodies.lz[i]);
-            if (!inside) first_lost = i;
-        }
-        lost[begin / body_grain] = first_lost;
+        detail::DriftResult& result = drift_results[begin / body_grain];
+        const std::size_t padded_end = detail::padded_count(end);
+        kernels->drift(arrays, begin, padded_end, settings, result);
+        if (result.first_lost >= end) result.first_lost = n;
     });
     ++steps;
-    const auto first = std::min_element(lost.begin(), lost.end());
-    if (first != lost.end() && *first < n) throw lost_body(*this, *first);
+    double furthest2 = 0.0;
+    std::size_t lost = n;
+    for (const detail::DriftResult& result : drift_results) {
+        furthest2 = std::max(furthest2, result.furthest2);
+        lost = std::min(lost, result.first_lost);
+    }
+    if (lost < n) throw lost_body(*this, lost);
+    return furthest2;
 }
 
 void Simulation::State::move_walls() {
     for (detail::Wall& wall : walls) detail::move_wall(wall, steps, definition.time_step);
 }
 
-void Simulation::State::find_neighbours_if_needed() {
-    const std::size_t n = bodies.size();
-    bool needed = pairs.reference.size() != n;
-    if (!needed) {
-        const double limit = 0.25 * pairs.skin * pairs.skin;
-        const double furthest = parallel_reduce(
-            n, 4 * body_grain, 0.0,
-            [&](std::size_t begin, std::size_t end) {
-                double most = 0.0;
-                for (std::size_t i = begin; i < end; ++i) most = std::max(most, (bodies.position(i) - pairs.reference[i]).squaredNorm());
-                return most;
-            },
-            [](double a, double b) { return std::max(a, b); });
-        needed = furthest > limit;
-    }
-    if (needed) detail::rebuild_pairs(pairs, bodies, templates);
+void Simulation::State::find_neighbours_if_needed(double furthest2) {
+    if (furthest2 > 0.25 * pairs.skin * pairs.skin) detail::rebuild_pairs(pairs, bodies, templates);
 }
 
 void Simulation::State::compute_pair_forces(const detail::StepClock& clock) {
     parallel_for(pairs.blocks.size(), 1,
-                 [&](std::size_t block) { detail::pair_contact_forces(pairs, block, kinematics, bodies, templates, pellet_law, *kernels, clock); });
+                 [&](std::size_t block) { detail::pair_contact_forces(pairs, block, kinematics, templates, balls, pellet_law, *kernels, clock); });
 }
 
 void Simulation::State::compute_wall_forces(const detail::StepClock& clock) {
@@ -135,74 +123,49 @@ void Simulation::State::compute_wall_forces(const detail::StepClock& clock) {
         });
 }
 
-/// Gravity, then pairs in which the body comes second, then those in which it comes first, then walls: always in this order.
-void Simulation::State::gather_forces() {
-    parallel_blocks(bodies.size(), body_grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const double mass = templates[bodies.template_index[i]].mass;
-            double f[3] = {definition.gravity.x() * mass, definition.gravity.y() * mass, definition.gravity.z() * mass};
-            double t[3] = {0.0, 0.0, 0.0};
-            for (std::uint32_t k = pairs.incoming_first[i]; k < pairs.incoming_first[i + 1]; ++k) {
-                const std::uint32_t pair = pairs.incoming[k];
-                if (!pairs.touching[pair]) continue;
-                for (int c = 0; c < 3; ++c) f[c] += pairs.loads[pair].force[c], t[c] += pairs.loads[pair].torque_j[c];
-            }
-            for (std::uint32_t pair = pairs.rows.first[i]; pair < pairs.rows.first[i + 1]; ++pair) {
-                if (!pairs.touching[pair]) continue;
-                for (int c = 0; c < 3; ++c) f[c] -= pairs.loads[pair].force[c], t[c] += pairs.loads[pair].torque_i[c];
-            }
-            for (const detail::Wall& wall : walls) {
-                if (!wall.touching[i]) continue;
-                for (int c = 0; c < 3; ++c) f[c] += wall.loads[i].force[c], t[c] += wall.loads[i].torque[c];
-            }
-            bodies.fx[i] = f[0], bodies.fy[i] = f[1], bodies.fz[i] = f[2];
-            bodies.tx[i] = t[0], bodies.ty[i] = t[1], bodies.tz[i] = t[2];
-        }
-    });
-}
-
-void Simulation::State::kick_bodies() {
-    const double half = 0.5 * definition.time_step;
-    parallel_blocks(bodies.size(), body_grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const double a = templates[bodies.template_index[i]].inverse_mass;
-            bodies.vx[i] += bodies.fx[i] * a * half, bodies.vy[i] += bodies.fy[i] * a * half, bodies.vz[i] += bodies.fz[i] * a * half;
-            bodies.lx[i] += bodies.tx[i] * half, bodies.ly[i] += bodies.ty[i] * half, bodies.lz[i] += bodies.tz[i] * half;
-        }
-    });
+void Simulation::State::gather_forces_and_kick(double kick) {
+    std::vector<const detail::LoadRow*> wall_rows;
+    std::vector<const std::uint8_t*> wall_flags;
+    for (const detail::Wall& wall : walls) wall_rows.push_back(wall.loads.data()), wall_flags.push_back(wall.touching.data());
+    const Vec3& g = definition.gravity;
+    const detail::GatherView loads{pairs.incoming_first.data(), pairs.incoming.data(), pairs.rows.first.data(), pairs.loads_i.data(), pairs.loads_j.data(),
+                                   pairs.touching.data(),       walls.size(),          wall_rows.data(),        wall_flags.data(),    {g.x(), g.y(), g.z()}};
+    const detail::BodyArrays arrays = bodies.arrays(constants.data(), kinematics.data());
+    parallel_blocks(bodies.size(), body_grain,
+                    [&](std::size_t begin, std::size_t end) { kernels->gather(arrays, loads, begin, detail::padded_count(end), kick); });
 }
 
 void Simulation::State::sum_wall_loads() {
     for (std::size_t w = 0; w < walls.size(); ++w) {
         const detail::Wall& wall = walls[w];
-        const WallLoad sum = parallel_reduce(
+        // The point on the axis moves with the translation.
+        const double since = static_cast<double>(steps - wall.motion_start) * definition.time_step;
+        const Vec3 point = wall.motion.point + wall.motion.velocity * since;
+        wall_loads[w] = parallel_reduce(
             bodies.size(), 4 * body_grain, WallLoad{},
             [&](std::size_t begin, std::size_t end) {
                 WallLoad part;
                 for (std::size_t i = begin; i < end; ++i) {
                     if (!wall.touching[i]) continue;
-                    part.force -= Vec3(wall.loads[i].force[0], wall.loads[i].force[1], wall.loads[i].force[2]);
-                    part.torque += Vec3(wall.loads[i].on_wall[0], wall.loads[i].on_wall[1], wall.loads[i].on_wall[2]);
+                    const Vec3 force(wall.loads[i].force()[0], wall.loads[i].force()[1], wall.loads[i].force()[2]);
+                    part.force -= force;
+                    part.torque -=
+                        Vec3(wall.loads[i].torque()[0], wall.loads[i].torque()[1], wall.loads[i].torque()[2]) + (bodies.position(i) - point).cross(force);
                 }
                 return part;
             },
             [](const WallLoad& a, const WallLoad& b) {
                 return WallLoad{a.force + b.force, a.torque + b.torque};
             });
-        // From the origin of the wall's frame to the point on the axis, which moves with the translation.
-        const double since = static_cast<double>(steps - wall.motion_start) * definition.time_step;
-        const Vec3 point = wall.motion.point + wall.motion.velocity * since;
-        wall_loads[w] = {sum.force, sum.torque + (wall.pose.position - point).cross(sum.force)};
     }
 }
 
 void Simulation::State::look_at_forces() {
-    for (std::size_t i = 0; i < bodies.size(); ++i) detail::fill_record(bodies, templates[bodies.template_index[i]], i, kinematics[i]);
-    find_neighbours_if_needed();
+    for (std::size_t i = 0; i < bodies.size(); ++i) detail::fill_record(bodies, templates[bodies.template_of(i)], i, kinematics[i]);
     const detail::StepClock clock{0.0, definition.time_step};
     compute_pair_forces(clock);
     compute_wall_forces(clock);
-    gather_forces();
+    gather_forces_and_kick(0.0);
     sum_wall_loads();
     view_is_current = false;
 }

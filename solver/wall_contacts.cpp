@@ -40,6 +40,10 @@ Vec3 vec(const double a[3]) {
     return {a[0], a[1], a[2]};
 }
 
+Quat quat(const double a[4]) {
+    return {a[0], a[1], a[2], a[3]};
+}
+
 /// Looks up the faces near the bounding sphere.
 void watch_anew(const Wall& wall, WallWatch& watch, const RelativePose& pose, double bounding_radius, double skin, std::vector<std::uint32_t>& faces) {
     wall.query.faces_near(wall.mesh, vec(pose.p), bounding_radius + skin, faces);
@@ -136,12 +140,13 @@ bool collect(const Wall& wall, const NearWall& near, const RelativePose& pose, c
             const Vec3 normal = distance > 0.0 ? Vec3((c - hit.point) / distance) : wall.mesh.normals[hit.face];
             const std::uint32_t patch = wall.mesh.patch[hit.face];
             const Vec3 spring = inherited_spring(near.history, s.used, sphere, patch, normal);
-            const std::size_t n = s.storage.add();
+            s.storage.reserve(s.storage.batch.size + 1);
             ContactBatch& b = s.storage.batch;
-            b.nx[n] = normal.x(), b.ny[n] = normal.y(), b.nz[n] = normal.z();
-            b.overlap[n] = ball.r - distance;
-            b.radius[n] = ball.r;
-            b.x[n] = hit.point.x(), b.y[n] = hit.point.y(), b.z[n] = hit.point.z();
+            const std::size_t n = b.size++;
+            const Vec3 d = normal * std::max(distance, 1e-200);
+            b.dx[n] = d.x(), b.dy[n] = d.y(), b.dz[n] = d.z();
+            b.ax[n] = hit.point.x(), b.ay[n] = hit.point.y(), b.az[n] = hit.point.z();
+            b.ra[n] = 0.0, b.rb[n] = ball.r;
             b.sx[n] = spring.x(), b.sy[n] = spring.y(), b.sz[n] = spring.z();
             b.slot[n] = static_cast<std::uint32_t>(s.slots.size());
             s.fresh.push_back({sphere, patch, normal, spring});
@@ -151,13 +156,14 @@ bool collect(const Wall& wall, const NearWall& near, const RelativePose& pose, c
 }
 
 PairSlot slot_of(const Kinematic& wall, const Kinematic& body, const RelativePose& pose, std::size_t contacts) {
-    const Mat3 to_wall = Quat(wall.q[0], wall.q[1], wall.q[2], wall.q[3]).toRotationMatrix().transpose();
-    const Vec3 v = to_wall * (vec(body.v) - vec(wall.v)), spin = to_wall * (vec(body.w) - vec(wall.w)), body_spin = to_wall * vec(body.w);
+    const Mat3 to_wall = quat(wall.turn()).toRotationMatrix().transpose();
+    const Vec3 v = to_wall * (vec(body.velocity()) - vec(wall.velocity())), spin = to_wall * (vec(body.spin()) - vec(wall.spin())),
+               body_spin = to_wall * vec(body.spin());
     const Vec3 at_origin = v - body_spin.cross(vec(pose.p));
     PairSlot slot;
-    for (int k = 0; k < 3; ++k) slot.velocity[k] = at_origin[k], slot.spin[k] = spin[k];
-    slot.mass = 1.0 / body.inverse_mass;
-    slot.inertia = rolling_share / (body.inverse_inertia * static_cast<double>(contacts));
+    for (int k = 0; k < 3; ++k) slot.row[k] = at_origin[k], slot.row[3 + k] = spin[k];
+    slot.row[6] = 1.0 / body.motion[6];
+    slot.row[7] = rolling_share / (body.motion[7] * static_cast<double>(contacts));
     return slot;
 }
 
@@ -165,6 +171,7 @@ PairSlot slot_of(const Kinematic& wall, const Kinematic& body, const RelativePos
 
 Wall::Wall(const WallDefinition& d, const LawRow& row)
     : name(d.name), mesh(make_wall_mesh(d.mesh, d.feature_angle, d.name)), query(mesh), law(row), motion(d.motion) {
+    law.wall = true;
     move_wall(*this, 0, 0.0);
 }
 
@@ -178,23 +185,14 @@ void move_wall(Wall& wall, std::uint64_t step, double dt) {
     const Vec3 spin = axis * wall.motion.rotation_speed;
     const Vec3 v = wall.motion.velocity + spin.cross(wall.pose.position - (wall.motion.point + shift));
     for (int k = 0; k < 3; ++k) {
-        wall.record.p[k] = wall.pose.position[k];
-        wall.record.v[k] = v[k];
-        wall.record.w[k] = spin[k];
+        wall.record.position()[k] = wall.pose.position[k];
+        wall.record.velocity()[k] = v[k];
+        wall.record.spin()[k] = spin[k];
     }
-    wall.record.q[0] = wall.pose.orientation.w(), wall.record.q[1] = wall.pose.orientation.x();
-    wall.record.q[2] = wall.pose.orientation.y(), wall.record.q[3] = wall.pose.orientation.z();
-    wall.record.inverse_mass = wall.record.inverse_inertia = wall.record.unused = 0.0;
-}
-
-RelativePose pose_in_wall(const Kinematic& wall, const Kinematic& body) {
-    const Matrix3 frame = matrix_of(wall.q[0], wall.q[1], wall.q[2], wall.q[3]);
-    const double d[3] = {body.p[0] - wall.p[0], body.p[1] - wall.p[1], body.p[2] - wall.p[2]};
-    RelativePose pose;
-    for (int k = 0; k < 3; ++k) pose.p[k] = frame.m[0][k] * d[0] + frame.m[1][k] * d[1] + frame.m[2][k] * d[2];
-    const Quaternion turn = product({wall.q[0], -wall.q[1], -wall.q[2], -wall.q[3]}, {body.q[0], body.q[1], body.q[2], body.q[3]});
-    pose.q[0] = turn.w, pose.q[1] = turn.x, pose.q[2] = turn.y, pose.q[3] = turn.z;
-    return pose;
+    const Quat& q = wall.pose.orientation;
+    double* turn_row = wall.record.turn();
+    turn_row[0] = q.w(), turn_row[1] = q.x(), turn_row[2] = q.y(), turn_row[3] = q.z();
+    wall.record.place[7] = wall.record.motion[6] = wall.record.motion[7] = 0.0;
 }
 
 void wall_contact_forces(Wall& wall, std::size_t begin, std::size_t end, const std::vector<Kinematic>& kinematics, const Bodies& bodies,
@@ -207,8 +205,8 @@ void wall_contact_forces(Wall& wall, std::size_t begin, std::size_t end, const s
     for (std::size_t i = begin; i < end; ++i) {
         wall.touching[i] = 0;
         WallWatch& watch = wall.watches[i];
-        const BodyTemplate& t = templates[bodies.template_index[i]];
-        const RelativePose pose = pose_in_wall(wall.record, kinematics[i]);
+        const BodyTemplate& t = templates[bodies.template_of(i)];
+        const RelativePose pose = relative_pose(wall.record, kinematics[i]);
         double moved = 0.0;
         for (int k = 0; k < 3; ++k) moved += (pose.p[k] - watch.place[k]) * (pose.p[k] - watch.place[k]);
         if (!(watch.allowance >= 0.0 && moved <= watch.allowance * watch.allowance)) watch_anew(wall, watch, pose, t.bounding_radius, skins.faces, s.faces);
@@ -225,16 +223,15 @@ void wall_contact_forces(Wall& wall, std::size_t begin, std::size_t end, const s
         s.active.push_back({static_cast<std::uint32_t>(i), first, contact_end, vec(pose.p)});
     }
 
-    s.storage.pad();
     ContactBatch& batch = s.storage.batch;
-    kernels.contact_forces(wall.law, batch, s.slots.data(), clock.spring_step, clock.step);
+    kernels.contact_forces(wall.law, batch, s.slots.data(), clock);
 
-    const Mat3 to_world = Quat(wall.record.q[0], wall.record.q[1], wall.record.q[2], wall.record.q[3]).toRotationMatrix();
+    const Mat3 to_world = quat(wall.record.turn()).toRotationMatrix();
     for (const Active& active : s.active) {
         Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
         for (std::uint32_t c = active.first_contact; c < active.contact_end; ++c) {
-            force += Vec3(batch.fx[c], batch.fy[c], batch.fz[c]);
-            torque += Vec3(batch.mx[c], batch.my[c], batch.mz[c]);
+            force += vec(batch.result[c].force());
+            torque += vec(batch.result[c].torque());
         }
         if (clock.spring_step > 0.0) {
             std::vector<WallHistory>& history = wall.watches[active.body].near->history;
@@ -242,9 +239,9 @@ void wall_contact_forces(Wall& wall, std::size_t begin, std::size_t end, const s
             for (std::uint32_t c = active.first_contact; c < active.contact_end; ++c)
                 history[c - active.first_contact].spring = {batch.sx[c], batch.sy[c], batch.sz[c]};
         }
-        const Vec3 world_force = to_world * force, world_torque = to_world * (torque - active.place.cross(force)), on_wall = to_world * -torque;
-        WallBodyLoad& load = wall.loads[active.body];
-        for (int k = 0; k < 3; ++k) load.force[k] = world_force[k], load.torque[k] = world_torque[k], load.on_wall[k] = on_wall[k];
+        const Vec3 world_force = to_world * force, world_torque = to_world * (torque - active.place.cross(force));
+        LoadRow& load = wall.loads[active.body];
+        for (int k = 0; k < 3; ++k) load.force()[k] = world_force[k], load.torque()[k] = world_torque[k];
         wall.touching[active.body] = 1;
     }
 }
@@ -252,7 +249,7 @@ void wall_contact_forces(Wall& wall, std::size_t begin, std::size_t end, const s
 void wall_overlaps(const Wall& wall, const Kinematic& body, const BodyTemplate& t, std::vector<WallOverlap>& overlaps) {
     std::vector<std::uint32_t> faces;
     std::vector<Hit> hits;
-    const RelativePose pose = pose_in_wall(wall.record, body);
+    const RelativePose pose = relative_pose(wall.record, body);
     wall.query.faces_near(wall.mesh, vec(pose.p), t.bounding_radius, faces);
     if (faces.empty()) return;
     const Mat3 r = rotation_of(pose);

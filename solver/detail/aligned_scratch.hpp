@@ -1,10 +1,8 @@
-// Scratch memory of one worker: contact batch and slots grow once and are used again for every block of pairs.
+// Scratch memory of one worker: grows and is used again for every block of pairs.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
-#include <new>
 #include <utility>
 #include <vector>
 
@@ -12,51 +10,44 @@
 
 namespace pelletlab::solver::detail {
 
-/// Owner of the arrays of a ContactBatch; padded so that a kernel may read and write full registers past the end.
+/// Owner of the arrays of a ContactBatch, with room for a full register behind the last contact.
 class BatchStorage {
 public:
-    ContactBatch batch;
+    ContactBatch batch{};
 
-    /// Makes room for one more contact and returns its index.
-    std::size_t add() {
-        if (batch.size == capacity_) grow();
-        return batch.size++;
-    }
-    /// Fills the padding behind the last contact with copies of harmless numbers, so that full registers hold no NaN.
-    void pad() {
-        if (capacity_ == 0) grow();
-        for (std::size_t k = batch.size; k < batch.size + padding; ++k) {
-            batch.nx[k] = 1.0, batch.ny[k] = 0.0, batch.nz[k] = 0.0;
-            batch.overlap[k] = 1.0, batch.radius[k] = 1.0;
-            batch.x[k] = batch.y[k] = batch.z[k] = 0.0;
-            batch.sx[k] = batch.sy[k] = batch.sz[k] = 0.0;
-            batch.slot[k] = 0;
-        }
+    /// Makes room for `count` contacts; what the batch holds stays.
+    void reserve(std::size_t count) {
+        if (count > capacity_) grow(count);
     }
 
 private:
-    static constexpr std::size_t padding = 8, array_count = 18;
+    static constexpr std::size_t array_count = 11;
     std::size_t capacity_ = 0;
-    struct Free {
-        void operator()(double* p) const { ::operator delete[](p, std::align_val_t{64}); }
-    };
-    std::unique_ptr<double[], Free> memory_;
-    std::vector<std::uint32_t> slots_;
+    std::vector<double> numbers_;
+    std::vector<std::uint32_t> indices_;
+    std::vector<LoadRow> results_;
 
-    void grow() {
-        const std::size_t larger = capacity_ == 0 ? 512 : 2 * capacity_;
-        const std::size_t stride = larger + padding;
-        std::unique_ptr<double[], Free> fresh(static_cast<double*>(::operator new[](array_count* stride * sizeof(double), std::align_val_t{64})));
-        double** fields[array_count] = {&batch.nx, &batch.ny, &batch.nz, &batch.overlap, &batch.radius, &batch.x,  &batch.y,  &batch.z,  &batch.sx,
-                                        &batch.sy, &batch.sz, &batch.fx, &batch.fy,      &batch.fz,     &batch.mx, &batch.my, &batch.mz, &batch.normal_force};
+    void grow(std::size_t count) {
+        const std::size_t larger = std::max<std::size_t>({count, 2 * capacity_, 256}), stride = larger + 2 * widest;
+        std::vector<double> numbers(array_count * stride);
+        std::vector<std::uint32_t> indices(2 * stride);
+        double** fields[array_count] = {&batch.dx, &batch.dy, &batch.dz, &batch.ax, &batch.ay, &batch.az,
+                                        &batch.ra, &batch.rb, &batch.sx, &batch.sy, &batch.sz};
         for (std::size_t f = 0; f < array_count; ++f) {
-            double* target = fresh.get() + f * stride;
-            for (std::size_t k = 0; k < batch.size; ++k) target[k] = (*fields[f])[k];
+            double* target = numbers.data() + f * stride;
+            std::copy_n(*fields[f], batch.size, target);
             *fields[f] = target;
         }
-        memory_ = std::move(fresh);
-        slots_.resize(stride, 0);
-        batch.slot = slots_.data();
+        std::uint32_t** index_fields[2] = {&batch.slot, &batch.id};
+        for (std::size_t f = 0; f < 2; ++f) {
+            std::uint32_t* target = indices.data() + f * stride;
+            std::copy_n(*index_fields[f], batch.size, target);
+            *index_fields[f] = target;
+        }
+        numbers_ = std::move(numbers);
+        indices_ = std::move(indices);
+        results_.resize(stride);
+        batch.result = results_.data();
         capacity_ = larger;
     }
 };

@@ -1,19 +1,18 @@
 // Bodies and templates as the engine holds them: structure of arrays for motion, one compact record a body for contacts.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "core/rigid_template.hpp"
 #include "core/vec.hpp"
+#include "solver/detail/kernels.hpp"
 
 namespace pelletlab::solver::detail {
 
-/// A template turned into what the loops need. Spheres are stored (x, y, z, radius), 32-byte aligned.
+/// A template turned into what the loops need.
 struct BodyTemplate {
-    struct alignas(32) Ball {
-        double x, y, z, r;
-    };
     std::vector<Ball> balls;
     double mass = 0.0, inverse_mass = 0.0;
     Vec3 inertia = Vec3::Zero(), inverse_inertia = Vec3::Zero();
@@ -31,43 +30,56 @@ struct BodyTemplate {
 };
 
 BodyTemplate make_body_template(const RigidTemplate& rigid);
+MotionConstants motion_constants(const BodyTemplate& t);
 
-/// One body as contacts see it, at the instant at which forces are computed.
-struct alignas(64) Kinematic {
-    double p[3];             ///< [m]
-    double q[4];             ///< w, x, y, z
-    double v[3];             ///< [m/s]
-    double w[3];             ///< [rad/s], world
-    double inverse_mass;     ///< [1/kg]; 0 for a wall
-    double inverse_inertia;  ///< [1/(kg m²)], of the smallest principal moment; 0 for a wall
-    double unused;
-};
-
-/// Structure of arrays: position, orientation, velocity, angular momentum about the centre of mass (world), force, torque.
-struct Bodies {
-    std::vector<std::uint32_t> template_index;
-    std::vector<double> px, py, pz, qw, qx, qy, qz, vx, vy, vz, lx, ly, lz, fx, fy, fz, tx, ty, tz;
-
-    std::size_t size() const { return template_index.size(); }
+/// Structure of arrays, padded to full registers: position, orientation, velocity, angular momentum about the centre of mass (world), force, torque.
+class Bodies {
+public:
+    std::size_t size() const { return count_; }
     void resize(std::size_t n);
 
-    Vec3 position(std::size_t i) const { return {px[i], py[i], pz[i]}; }
-    Quat orientation(std::size_t i) const { return {qw[i], qx[i], qy[i], qz[i]}; }
-    Vec3 velocity(std::size_t i) const { return {vx[i], vy[i], vz[i]}; }
-    Vec3 angular_momentum(std::size_t i) const { return {lx[i], ly[i], lz[i]}; }
-    Vec3 force(std::size_t i) const { return {fx[i], fy[i], fz[i]}; }
-    Vec3 torque(std::size_t i) const { return {tx[i], ty[i], tz[i]}; }
+    std::uint32_t template_of(std::size_t i) const { return template_index_[i]; }
+    Vec3 position(std::size_t i) const { return get(position_, i); }
+    Quat orientation(std::size_t i) const { return {turn_[0][i], turn_[1][i], turn_[2][i], turn_[3][i]}; }
+    Vec3 velocity(std::size_t i) const { return get(velocity_, i); }
+    Vec3 angular_momentum(std::size_t i) const { return get(momentum_, i); }
+    Vec3 force(std::size_t i) const { return get(force_, i); }
+    Vec3 torque(std::size_t i) const { return get(torque_, i); }
 
-    /// Every array of doubles, in a fixed order: for checkpoints, hashes and resizing.
-    template <class Visit>
-    void each_array(const Visit& visit) {
-        for (std::vector<double>* a : {&px, &py, &pz, &qw, &qx, &qy, &qz, &vx, &vy, &vz, &lx, &ly, &lz, &fx, &fy, &fz, &tx, &ty, &tz}) visit(*a);
-    }
-    template <class Visit>
-    void each_array(const Visit& visit) const {
-        const_cast<Bodies*>(this)->each_array([&](const std::vector<double>& a) { visit(a); });
-    }
+    void set_template(std::size_t i, std::uint32_t index) { template_index_[i] = index; }
+    void set_position(std::size_t i, const Vec3& a) { set(position_, i, a); }
+    void set_orientation(std::size_t i, const Quat& q) { turn_[0][i] = q.w(), turn_[1][i] = q.x(), turn_[2][i] = q.y(), turn_[3][i] = q.z(); }
+    void set_velocity(std::size_t i, const Vec3& a) { set(velocity_, i, a); }
+    void set_angular_momentum(std::size_t i, const Vec3& a) { set(momentum_, i, a); }
+
+    /// Remembers the present positions: neighbour lists hold while no body is too far from there.
+    void mark_reference();
+
+    /// What kernels work on; `constants` per template, `records` padded like the bodies.
+    BodyArrays arrays(const MotionConstants* constants, Kinematic* records);
+
+    /// Numbers of body i that decide the future, in a fixed order: for checkpoints and hashes.
+    static constexpr std::size_t number_count = 19;
+    std::array<double, number_count> numbers(std::size_t i) const;
+    void set_numbers(std::size_t i, const std::array<double, number_count>& values);
+
+private:
+    template <std::size_t N>
+    using Columns = std::array<std::vector<double>, N>;
+    std::size_t count_ = 0;
+    std::vector<std::uint32_t> template_index_;
+    Columns<3> position_, velocity_, momentum_, force_, torque_, reference_;
+    Columns<4> turn_;
+
+    static Vec3 get(const Columns<3>& c, std::size_t i) { return {c[0][i], c[1][i], c[2][i]}; }
+    static void set(Columns<3>& c, std::size_t i, const Vec3& a) { c[0][i] = a.x(), c[1][i] = a.y(), c[2][i] = a.z(); }
+    template <class Self, class Visit>
+    static void each_column(Self& self, const Visit& visit);
 };
+
+inline std::size_t padded_count(std::size_t n) {
+    return (n + widest - 1) / widest * widest;
+}
 
 /// Spin [rad/s] in the world frame from angular momentum L (world): ω = R I⁻¹ Rᵀ L.
 inline Vec3 spin_of(const BodyTemplate& t, const Quat& orientation, const Vec3& angular_momentum) {

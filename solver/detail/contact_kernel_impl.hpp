@@ -6,51 +6,55 @@
 namespace pelletlab::solver::detail {
 namespace {
 
+/// Copies of the last contact behind it, so that full registers hold numbers that do no harm.
+inline void pad_batch(ContactBatch& b) {
+    for (std::size_t k = b.size; k < b.size + widest - 1; ++k) {
+        b.dx[k] = 1.0, b.dy[k] = 0.0, b.dz[k] = 0.0;
+        b.ax[k] = b.ay[k] = b.az[k] = 0.0;
+        b.ra[k] = b.rb[k] = 1.0;
+        b.sx[k] = b.sy[k] = b.sz[k] = 0.0;
+        b.slot[k] = b.slot[0];
+    }
+}
+
 template <class L>
 inline Triple<typename L::Real> load_triple(const double* x, const double* y, const double* z, std::size_t k) {
     return {L::load(x + k), L::load(y + k), L::load(z + k)};
 }
 
-template <class L>
-inline void store_triple(double* x, double* y, double* z, std::size_t k, const Triple<typename L::Real>& a) {
-    L::store(x + k, a.x);
-    L::store(y + k, a.y);
-    L::store(z + k, a.z);
-}
-
-template <class L>
-struct SlotLanes {
-    using V = typename L::Real;
-    Triple<V> velocity, spin;
-    V mass, inertia;
-};
-
-inline SlotLanes<ScalarLanes> load_slots(ScalarLanes, const PairSlot* slots, const std::uint32_t* index) {
-    const PairSlot& s = slots[*index];
-    return {{s.velocity[0], s.velocity[1], s.velocity[2]}, {s.spin[0], s.spin[1], s.spin[2]}, s.mass, s.inertia};
-}
-
 template <class L, class Law, class Rolling>
-inline void contact_forces(const LawRow& law, ContactBatch& b, const PairSlot* slots, double spring_step, double step) {
+void contact_forces(const LawRow& law, ContactBatch& b, const PairSlot* slots, const StepClock& clock) {
     using V = typename L::Real;
+    if (b.size == 0) return;
+    pad_batch(b);
     for (std::size_t k = 0; k < b.size; k += L::width) {
-        const SlotLanes<L> pair = load_slots(L{}, slots, b.slot + k);
-        const Triple<V> point = load_triple<L>(b.x, b.y, b.z, k);
+        const double* rows[L::width];
+        for (std::size_t lane = 0; lane < L::width; ++lane) rows[lane] = slots[b.slot[k + lane]].row;
+        V slot[8];
+        L::load_rows(rows, slot);
+        const Triple<V> d = load_triple<L>(b.dx, b.dy, b.dz, k), origin = load_triple<L>(b.ax, b.ay, b.az, k);
+        const V ra = L::load(b.ra + k), rb = L::load(b.rb + k), reach = ra + rb;
+        const V distance = L::square_root(dot(d, d));
         ContactState<V> c;
-        c.normal = load_triple<L>(b.nx, b.ny, b.nz, k);
-        c.overlap = L::load(b.overlap + k);
-        c.radius = L::load(b.radius + k);
-        c.spin = pair.spin;
-        c.velocity = pair.velocity + cross(pair.spin, point);
-        c.mass = pair.mass;
-        c.inertia = pair.inertia;
-        c.spring = carry_spring<L>(load_triple<L>(b.sx, b.sy, b.sz, k), c.normal, c.velocity, c.spin, spring_step);
+        c.normal = d * (L::all(1.0) / L::larger(distance, L::all(1e-300)));
+        c.overlap = reach - distance;
+        // Between spheres the contact point is in the middle of the overlap, on a wall it is the wall's nearest point.
+        c.radius = law.wall ? rb : ra * rb / reach;
+        const Triple<V> point = law.wall ? origin : origin + c.normal * (ra - L::all(0.5) * c.overlap);
+        c.spin = {slot[3], slot[4], slot[5]};
+        c.velocity = Triple<V>{slot[0], slot[1], slot[2]} + cross(c.spin, point);
+        c.mass = slot[6];
+        c.inertia = slot[7];
+        c.spring = carry_spring<L>(load_triple<L>(b.sx, b.sy, b.sz, k), c.normal, c.velocity, c.spin, clock.spring_step);
         const ContactResult<V> result = Law::template force<L>(law, c);
-        const Triple<V> moment = Rolling::template moment<L>(law, c, result.normal_force, step) + cross(point, result.force);
-        store_triple<L>(b.fx, b.fy, b.fz, k, result.force);
-        store_triple<L>(b.mx, b.my, b.mz, k, moment);
-        store_triple<L>(b.sx, b.sy, b.sz, k, result.spring);
-        L::store(b.normal_force + k, result.normal_force);
+        const Triple<V> moment = Rolling::template moment<L>(law, c, result.normal_force, clock.step) + cross(point, result.force);
+        L::store(b.sx + k, result.spring.x);
+        L::store(b.sy + k, result.spring.y);
+        L::store(b.sz + k, result.spring.z);
+        const V out[8] = {result.force.x, result.force.y, result.force.z, moment.x, moment.y, moment.z, result.normal_force, L::all(0.0)};
+        double* targets[L::width];
+        for (std::size_t lane = 0; lane < L::width; ++lane) targets[lane] = b.result[k + lane].row;
+        L::store_rows(targets, out);
     }
 }
 

@@ -1,11 +1,66 @@
-// What the number-crunching kernels read and write: plain arrays, no Eigen, so that a kernel file can be compiled for a newer
-// instruction set without leaking its instructions into inline functions that other files share.
+// What the number-crunching kernels read and write: plain data, no Eigen, so that a kernel file can be compiled for a newer instruction set
+// without leaking its instructions into inline functions that other files share.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
 namespace pelletlab::solver::detail {
+
+/// A sphere of a template, body frame [m].
+struct alignas(32) Ball {
+    double x, y, z, r;
+};
+
+/// One body (or wall) as contacts see it, at the instant at which forces are computed. Two rows of one cache line each: place, then motion.
+struct alignas(64) Kinematic {
+    double place[8];   ///< position [m] (0–2), orientation w, x, y, z (3–6), largest distance of a sphere's centre from the centre of mass [m] (7)
+    double motion[8];  ///< velocity [m/s] (0–2), spin [rad/s] (3–5), 1/mass [1/kg] (6), 1/smallest moment of inertia [1/(kg m²)] (7); 0 for a wall
+
+    double* position() { return place; }
+    const double* position() const { return place; }
+    double* turn() { return place + 3; }
+    const double* turn() const { return place + 3; }
+    double* velocity() { return motion; }
+    const double* velocity() const { return motion; }
+    double* spin() { return motion + 3; }
+    const double* spin() const { return motion + 3; }
+};
+
+/// A pair of bodies with its cached candidates; see pair_list.hpp.
+struct alignas(64) PairRecord {
+    /// Of j in the frame of i when the candidates were found: place [m] (0–2), turn w, x, y, z (3–6); and how much relative motion [m] they
+    /// stand (7), negative when they were not found yet.
+    float reference[8];
+    std::uint32_t i, j;
+    std::uint32_t first;  ///< candidate in the pool of its block
+    std::uint16_t count, capacity;
+    std::uint16_t template_i, template_j;
+};
+
+/// Sphere a of body i and sphere b of body j; the top bit of a says that they touched in the last step and have a spring.
+struct Candidate {
+    static constexpr std::uint16_t touching_bit = 0x8000;
+    std::uint16_t a, b;
+    std::uint16_t sphere_a() const { return static_cast<std::uint16_t>(a & ~touching_bit); }
+    bool touching() const { return (a & touching_bit) != 0; }
+    std::uint32_t key() const { return (static_cast<std::uint32_t>(sphere_a()) << 16) | b; }
+};
+
+/// Tangential displacement [m] in the frame of body i.
+struct Spring {
+    double x, y, z;
+};
+
+/// Force [N] (0–2) and torque [N m] (3–5) in one cache line.
+struct alignas(64) LoadRow {
+    double row[8];
+
+    double* force() { return row; }
+    const double* force() const { return row; }
+    double* torque() { return row + 3; }
+    const double* torque() const { return row + 3; }
+};
 
 /// Constants of one pair of materials; see contact_law_impl.hpp for the formulas.
 struct LawRow {
@@ -15,40 +70,119 @@ struct LawRow {
     double tangential_damping = 0.0;  ///< the same times sqrt(S_t / S_n)
     double sliding_friction = 0.0;
     double rolling_friction = 0.0;
+    bool wall = false;  ///< the first one is a wall: R* = r_j, and the contact point lies on the wall
+};
+
+/// What every contact of a step shares.
+struct StepClock {
+    double spring_step = 0.0;  ///< [s], over which tangential springs grow; 0 when forces are only looked at
+    double step = 0.0;         ///< [s]
 };
 
 /// Motion of a touching pair (i, j) in the frame of i; i may be a wall.
 struct alignas(64) PairSlot {
-    double velocity[3];  ///< [m/s], v_j − v_i − ω_j × p with p the place of j: velocity of j's material at x is velocity + spin × x
-    double spin[3];      ///< [rad/s], ω_j − ω_i
-    double mass;         ///< [kg], 1 / (1/m_i + 1/m_j)
-    double inertia;      ///< [kg m²], share of the reduced inertia that rolling friction of one contact may stop in one step
+    /// v_j − v_i − ω_j × p with p the place of j [m/s] (0–2), ω_j − ω_i [rad/s] (3–5): the velocity of j against i at x is the first plus the second × x.
+    /// Then 1 / (1/m_i + 1/m_j) [kg] (6) and the share of the reduced inertia that rolling friction of one contact may stop in one step [kg m²] (7).
+    double row[8];
 };
 
-/// Touching spheres of many pairs, structure of arrays, each array `capacity` long and 64-byte aligned.
+/// Touching spheres of many pairs, structure of arrays; every array has room for a full register behind the last contact.
 struct ContactBatch {
     std::size_t size = 0;
-    double *nx, *ny, *nz;  ///< unit normal from i to j
-    double* overlap;       ///< [m]
-    double* radius;        ///< [m], 1 / (1/r_i + 1/r_j)
-    double *x, *y, *z;     ///< [m], contact point
+    double *dx, *dy, *dz;  ///< [m], from the centre of sphere a (or the nearest point of the wall) to the centre of sphere b
+    double *ax, *ay, *az;  ///< [m], the centre of sphere a (or the point of the wall), frame of i
+    double *ra, *rb;       ///< [m], radii; ra = 0 for a wall
     double *sx, *sy, *sz;  ///< [m], tangential displacement: in and out
-    double *fx, *fy, *fz;  ///< [N], out: force on j
-    double *mx, *my, *mz;  ///< [N m], out: torque on j about the origin of frame i, rolling friction included
-    double* normal_force;  ///< [N], out
-    std::uint32_t* slot = nullptr;
+    std::uint32_t* slot;   ///< pair
+    std::uint32_t* id;     ///< candidate in the pool
+    LoadRow* result;       ///< out: force on j, torque on j about the origin of frame i; row[6] is the normal force
 };
 
-/// Forces of all contacts of a batch. spring_step: time over which the tangential spring grows; step: time step [s].
-using ContactKernel = void (*)(const LawRow& law, ContactBatch& batch, const PairSlot* slots, double spring_step, double step);
+inline constexpr std::size_t pairs_per_block = 128;
+inline constexpr std::size_t widest = 8;  ///< lanes of the widest register
+
+/// Rolling friction of one contact may stop at most this share of a body's spin in a step (a body has rarely more than eight neighbours).
+inline constexpr double rolling_share = 1.0 / 8.0;
+
+/// Scratch of one worker for one block of pairs.
+struct PairScratch {
+    double p[3][pairs_per_block + widest];  ///< place of j in the frame of i
+    double r[9][pairs_per_block + widest];  ///< its rotation matrix, by rows
+    std::uint8_t stale[pairs_per_block + widest];
+    std::uint32_t active_count;
+    std::uint32_t active[pairs_per_block + widest];  ///< touching pairs, counted from the block's first
+    std::uint32_t first_contact[pairs_per_block + widest + 1];
+    PairSlot slots[pairs_per_block + widest];
+    LoadRow sums[pairs_per_block + widest];
+};
+
+/// One block of pairs as the force kernel sees it.
+struct PairBlockView {
+    const PairRecord* records;
+    std::size_t count;
+    const Kinematic* kinematics;
+    const Ball* const* balls;  ///< per template
+    Candidate* candidates;
+    Spring* springs;
+    LoadRow *loads_i, *loads_j;  ///< out, world, about the bodies' own centres; only where touching
+    std::uint8_t* touching;      ///< out
+};
+
+/// What motion needs of a template; see motion.hpp.
+struct alignas(64) MotionConstants {
+    /// 1/mass, mass, 1/principal moments (2–4), 1/I of the transverse axes (5), 1/I_axis − 1/I_transverse (6), the same for the second axis (7),
+    /// axis (8–10), second axis (11–13), largest distance of a sphere's centre (14), 1/smallest moment (15).
+    double row[16];
+};
+
+/// The bodies as structure of arrays; padded to a multiple of `widest`.
+struct BodyArrays {
+    std::size_t count;  ///< without the padding
+    double *position[3], *turn[4], *velocity[3], *momentum[3], *force[3], *torque[3];
+    const double* reference[3];  ///< positions at the last neighbour search
+    const std::uint32_t* template_index;
+    const MotionConstants* constants;
+    Kinematic* records;
+};
+
+struct DriftSettings {
+    double step;             ///< [s]
+    double low[3], high[3];  ///< domain [m]
+};
+
+struct DriftResult {
+    std::size_t first_lost;  ///< the first body outside the domain or not a number; the end if there is none
+    double furthest2;        ///< [m²], largest squared distance from the reference positions
+};
+
+/// All loads that bodies collect.
+struct GatherView {
+    const std::uint32_t *incoming_first, *incoming, *outgoing_first;
+    const LoadRow *loads_i, *loads_j;
+    const std::uint8_t* touching;
+    std::size_t wall_count;
+    const LoadRow* const* wall_loads;
+    const std::uint8_t* const* wall_touching;
+    double gravity[3];
+};
 
 struct Kernels {
     const char* name;
-    ContactKernel contact_forces;
+    void (*drift)(const BodyArrays& bodies, std::size_t begin, std::size_t end, const DriftSettings& settings, DriftResult& result);
+    void (*gather)(const BodyArrays& bodies, const GatherView& loads, std::size_t begin, std::size_t end, double kick);
+    /// Relative poses of the block's pairs, and which candidate lists are stale.
+    void (*find_poses)(const PairBlockView& block, PairScratch& scratch);
+    /// Touching spheres, contact forces, history and loads of the block; poses must be there. The batch must have room for all candidates.
+    void (*pair_forces)(const LawRow& law, const PairBlockView& block, PairScratch& scratch, ContactBatch& batch, const StepClock& clock);
+    /// Forces of all contacts of a batch; `slots` are those of the pairs.
+    void (*contact_forces)(const LawRow& law, ContactBatch& batch, const PairSlot* slots, const StepClock& clock);
 };
 
+const Kernels& scalar_kernels();
+/// Null where the processor or the build lacks the instructions.
+const Kernels* avx2_kernels();
+const Kernels* avx512_kernels();
 /// The fastest set that this processor runs; all sets give the same bits.
 const Kernels& best_kernels();
-const Kernels& scalar_kernels();
 
 }  // namespace pelletlab::solver::detail

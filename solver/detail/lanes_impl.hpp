@@ -1,9 +1,9 @@
 // Arithmetic on lanes: one double for the scalar twin, or a register full. Included by kernel files only; everything stays in an unnamed
-// namespace because the same text is compiled for several instruction sets.
+// namespace because the same text is compiled for several instruction sets. All lane types round every operation alike, so all give the same bits.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace pelletlab::solver::detail {
 namespace {
@@ -16,11 +16,28 @@ struct ScalarLanes {
     static Real load(const double* p) { return *p; }
     static void store(double* p, Real a) { *p = a; }
     static Real all(double a) { return a; }
-    static Real square_root(Real a) { return std::sqrt(a); }
+    static Real square_root(Real a) { return __builtin_sqrt(a); }
     static Real smaller(Real a, Real b) { return a < b ? a : b; }
     static Real larger(Real a, Real b) { return a > b ? a : b; }
     static Real choose(Mask m, Real a, Real b) { return m ? a : b; }
     static Mask greater(Real a, Real b) { return a > b; }
+    static unsigned bits(Mask m) { return m ? 1u : 0u; }
+    /// Column k of the rows at p[0] … p[width − 1], eight columns each.
+    static void load_rows(const double* const* p, Real* column) {
+        for (int k = 0; k < 8; ++k) column[k] = p[0][k];
+    }
+    static void load_float_rows(const float* const* p, Real* column) {
+        for (int k = 0; k < 8; ++k) column[k] = static_cast<double>(p[0][k]);
+    }
+    static void store_rows(double* const* p, const Real* column) {
+        for (int k = 0; k < 8; ++k) p[0][k] = column[k];
+    }
+    /// Four columns.
+    static void load_short_rows(const double* const* p, Real* column) {
+        for (int k = 0; k < 4; ++k) column[k] = p[0][k];
+    }
+    /// Writes the lanes whose bit is set, one after the other, and may write rubbish behind them, up to `width` numbers in all.
+    static void store_chosen(double* p, unsigned, Real a) { *p = a; }
 };
 
 template <class V>
@@ -47,6 +64,42 @@ inline V dot(const Triple<V>& a, const Triple<V>& b) {
 template <class V>
 inline Triple<V> cross(const Triple<V>& a, const Triple<V>& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Rotation matrix by rows.
+template <class V>
+struct Rotation {
+    Triple<V> x, y, z;
+};
+
+template <class L, class V = typename L::Real>
+inline Rotation<V> rotation_of(const V& w, const V& x, const V& y, const V& z) {
+    const V one = L::all(1.0), two = L::all(2.0);
+    return {{one - two * (y * y + z * z), two * (x * y - w * z), two * (x * z + w * y)},
+            {two * (x * y + w * z), one - two * (x * x + z * z), two * (y * z - w * x)},
+            {two * (x * z - w * y), two * (y * z + w * x), one - two * (x * x + y * y)}};
+}
+
+template <class V>
+inline Triple<V> rotate(const Rotation<V>& r, const Triple<V>& a) {
+    return {dot(r.x, a), dot(r.y, a), dot(r.z, a)};
+}
+
+/// Rᵀ a
+template <class V>
+inline Triple<V> rotate_back(const Rotation<V>& r, const Triple<V>& a) {
+    return r.x * a.x + r.y * a.y + r.z * a.z;
+}
+
+template <class V>
+struct Turn {
+    V w, x, y, z;
+};
+
+template <class V>
+inline Turn<V> product(const Turn<V>& a, const Turn<V>& b) {
+    return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+            a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
 }  // namespace

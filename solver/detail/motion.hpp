@@ -6,6 +6,7 @@
 //   predict  v* = v + F Δt / 2m, L* = L + T Δt / 2: velocities of the same instant as x, which the new force takes
 //   ½ kick   with the new force
 // The splitting: Dullweber, Leimkuhler, McLachlan 1997 (J. Chem. Phys. 107:5840), with the symmetric top as the solvable part.
+// The loops are in motion_kernel_impl.hpp.
 #pragma once
 
 #include "core/vec.hpp"
@@ -22,27 +23,6 @@ inline Quaternion product(const Quaternion& a, const Quaternion& b) {
             a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
-/// Rotation by the vector φ [rad]. Series to the last bit for |φ| ≤ 1; longer vectors are halved first. No libm call, so the bits do not
-/// depend on the machine.
-inline Quaternion rotation_by(double x, double y, double z) {
-    double h2 = 0.25 * (x * x + y * y + z * z);
-    int doublings = 0;
-    double shrink = 1.0;
-    while (h2 > 0.25 && doublings < 60) {
-        h2 *= 0.25;
-        shrink *= 0.5;
-        ++doublings;
-    }
-    const double cosine =
-        1.0 - h2 / 2.0 * (1.0 - h2 / 12.0 * (1.0 - h2 / 30.0 * (1.0 - h2 / 56.0 * (1.0 - h2 / 90.0 * (1.0 - h2 / 132.0 * (1.0 - h2 / 182.0))))));
-    const double sinc =
-        1.0 - h2 / 6.0 * (1.0 - h2 / 20.0 * (1.0 - h2 / 42.0 * (1.0 - h2 / 72.0 * (1.0 - h2 / 110.0 * (1.0 - h2 / 156.0 * (1.0 - h2 / 210.0))))));
-    const double s = 0.5 * shrink * sinc;
-    Quaternion q{cosine, s * x, s * y, s * z};
-    for (int k = 0; k < doublings; ++k) q = product(q, q);
-    return q;
-}
-
 struct Matrix3 {
     double m[3][3];
 };
@@ -52,9 +32,6 @@ inline Matrix3 matrix_of(double w, double x, double y, double z) {
              {2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)},
              {2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)}}};
 }
-
-/// First half kick and drift of body i over Δt; writes the record that contacts read, with predicted velocities.
-void kick_and_drift(Bodies& bodies, const BodyTemplate& t, std::size_t i, double dt, Kinematic& record);
 
 /// The record of body i with its present velocities.
 void fill_record(const Bodies& bodies, const BodyTemplate& t, std::size_t i, Kinematic& record);

@@ -21,6 +21,8 @@ struct Simulation::State {
 
     SimulationDefinition definition;
     std::vector<detail::BodyTemplate> templates;
+    std::vector<const detail::Ball*> balls;          ///< per template
+    std::vector<detail::MotionConstants> constants;  ///< per template
     detail::LawRow pellet_law;
     const detail::Kernels* kernels = nullptr;
     detail::WallSkins wall_skins;
@@ -33,7 +35,8 @@ struct Simulation::State {
     std::vector<detail::Wall> walls;
     std::vector<WallLoad> wall_loads;
 
-    std::array<double, 6> stage_seconds{};  ///< see stage_names
+    std::vector<detail::DriftResult> drift_results;  ///< scratch, one a block of bodies
+    std::array<double, 6> stage_seconds{};           ///< see stage_names
 
     mutable BodyState view;  ///< filled when bodies() is asked for
     mutable bool view_is_current = false;
@@ -41,13 +44,13 @@ struct Simulation::State {
     double time() const { return static_cast<double>(steps) * definition.time_step; }
 
     // The stages of a step, in their order; step.cpp.
-    void kick_and_drift_bodies();
+    /// Half kick, drift and predicted velocities; the squared distance that the furthest body has from its reference position.
+    double kick_and_drift_bodies();
     void move_walls();
-    void find_neighbours_if_needed();
+    void find_neighbours_if_needed(double furthest2);
     void compute_pair_forces(const detail::StepClock& clock);
     void compute_wall_forces(const detail::StepClock& clock);
-    void gather_forces();
-    void kick_bodies();
+    void gather_forces_and_kick(double kick);
     void sum_wall_loads();
 
     /// Forces and torques at the present instant, springs untouched: after bodies were added.

@@ -41,12 +41,6 @@ struct WallWatch {
     std::unique_ptr<NearWall> near;  ///< only where faces are near
 };
 
-/// What the wall exerts on one body.
-struct WallBodyLoad {
-    double force[3], torque[3];  ///< [N], [N m], on the body, world, about its centre of mass
-    double on_wall[3];           ///< [N m], torque of −force about the origin of the wall's frame, world
-};
-
 struct Wall {
     Wall(const WallDefinition& definition, const LawRow& row);
 
@@ -59,7 +53,7 @@ struct Wall {
     Pose start_pose, pose;
     Kinematic record;                ///< pose and velocity as contacts see them
     std::vector<WallWatch> watches;  ///< one a body
-    std::vector<WallBodyLoad> loads;
+    std::vector<LoadRow> loads;      ///< on each body, world, about its centre of mass; valid where touching
     std::vector<std::uint8_t> touching;
     WallLoad load;  ///< sum over bodies
 };
@@ -76,9 +70,6 @@ struct WallSkins {
 /// Forces of the wall on bodies [begin, end).
 void wall_contact_forces(Wall& wall, std::size_t begin, std::size_t end, const std::vector<Kinematic>& kinematics, const Bodies& bodies,
                          const std::vector<BodyTemplate>& templates, const WallSkins& skins, const Kernels& kernels, const StepClock& clock);
-
-/// Pose of body i in the frame of the wall.
-RelativePose pose_in_wall(const Kinematic& wall, const Kinematic& body);
 
 /// One contact of a body with a wall, frame of the wall.
 struct WallOverlap {

@@ -12,8 +12,9 @@ Bodies scattered(std::size_t n, double size, std::uint64_t seed) {
     b.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
         RandomStream random(seed, i);
-        b.px[i] = random.uniform(0.0, size), b.py[i] = random.uniform(0.0, size), b.pz[i] = random.uniform(0.0, size);
-        b.template_index[i] = random.uniform() < 0.3 ? 1 : 0;
+        const double x = random.uniform(0.0, size), y = random.uniform(0.0, size), z = random.uniform(0.0, size);
+        b.set_position(i, {x, y, z});
+        b.set_template(i, random.uniform() < 0.3 ? 1 : 0);
     }
     return b;
 }
@@ -31,7 +32,7 @@ void expect_same_as_brute_force(const Bodies& b, double skin) {
     std::vector<std::uint32_t> first{0}, partner;
     for (std::size_t i = 0; i < b.size(); ++i) {
         for (std::size_t j = i + 1; j < b.size(); ++j) {
-            const double reach = templates[b.template_index[i]].bounding_radius + templates[b.template_index[j]].bounding_radius + skin;
+            const double reach = templates[b.template_of(i)].bounding_radius + templates[b.template_of(j)].bounding_radius + skin;
             if ((b.position(i) - b.position(j)).squaredNorm() < reach * reach) partner.push_back(static_cast<std::uint32_t>(j));
         }
         first.push_back(static_cast<std::uint32_t>(partner.size()));
@@ -46,8 +47,8 @@ TEST(BroadPhase, EqualsBruteForceInADenseCloud) {
 
 TEST(BroadPhase, EqualsBruteForceWhenAFewBodiesAreVeryFarAway) {
     Bodies b = scattered(300, 0.5, 2);
-    b.px[7] = 1e6;
-    b.pz[9] = -4e5;
+    b.set_position(7, {1e6, 0.1, 0.2});
+    b.set_position(9, {0.1, 0.2, -4e5});
     expect_same_as_brute_force(b, 0.02);
 }
 

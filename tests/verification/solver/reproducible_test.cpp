@@ -14,9 +14,10 @@
 namespace pelletlab::solver {
 namespace {
 
-Simulation falling_bed(SearchSkins skins = {}) {
+Simulation falling_bed(SearchSkins skins = {}, InstructionSet instructions = InstructionSet::fastest) {
     SimulationDefinition d = scene::falling_definition(scene::cylinder_template(3, 8));
     d.skins = skins;
+    d.instructions = instructions;
     d.walls.push_back(
         scene::wall("paddle", transformed(scene::plate(0.004), {{0.0, 0.0, 0.006}, Quat(Eigen::AngleAxisd(0.5 * M_PI, Vec3::UnitX()))}), {0.5, 0.5, 0.05}));
     d.walls.back().motion.axis = Vec3::UnitZ();
@@ -61,6 +62,21 @@ TEST(Reproducible, SearchSkinsChangeNoBit) {
     EXPECT_NE(rebuilds[1], rebuilds[2]);
     EXPECT_EQ(hashes[0], hashes[1]);
     EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+TEST(Reproducible, InstructionSetsGiveTheSameBits) {
+    std::vector<std::uint64_t> hashes;
+    for (const InstructionSet set : {InstructionSet::scalar, InstructionSet::avx2, InstructionSet::avx512}) {
+        try {
+            Simulation s = falling_bed({}, set);
+            s.advance(5000);
+            hashes.push_back(s.state_hash());
+        } catch (const Error& e) {
+            ASSERT_NE(std::string(e.what()).find("lacks the instruction set"), std::string::npos);
+        }
+    }
+    for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]);
+    if (hashes.size() < 3) GTEST_SKIP() << "this processor runs only " << hashes.size() << " of 3 instruction sets";
 }
 
 TEST(Reproducible, CandidateSearchFindsEveryContactOfBruteForce) {

@@ -1,0 +1,228 @@
+// The kernels over one block of pairs: relative poses, touching spheres, forces, loads. Included by kernel files only.
+// L: lanes over pairs and contacts; S: short lanes over the candidates of one pair.
+#pragma once
+
+#include "solver/detail/contact_kernel_impl.hpp"
+#include "solver/detail/motion_kernel_impl.hpp"
+
+namespace pelletlab::solver::detail {
+namespace {
+
+/// First cache line of a body: place and turn.
+template <class L>
+struct PlaceLanes {
+    using V = typename L::Real;
+    Triple<V> p;
+    Turn<V> q;
+    V offset;
+};
+
+template <class L>
+inline PlaceLanes<L> load_places(const Kinematic* const* bodies) {
+    const double* rows[L::width];
+    for (std::size_t lane = 0; lane < L::width; ++lane) rows[lane] = bodies[lane]->place;
+    typename L::Real c[8];
+    L::load_rows(rows, c);
+    return {{c[0], c[1], c[2]}, {c[3], c[4], c[5], c[6]}, c[7]};
+}
+
+template <class L>
+void find_poses(const PairBlockView& block, PairScratch& s) {
+    using V = typename L::Real;
+    for (std::size_t k = 0; k < block.count; k += L::width) {
+        const Kinematic *first[L::width], *second[L::width];
+        const float* references[L::width];
+        for (std::size_t lane = 0; lane < L::width; ++lane) {
+            const PairRecord& r = block.records[k + lane < block.count ? k + lane : block.count - 1];
+            first[lane] = block.kinematics + r.i;
+            second[lane] = block.kinematics + r.j;
+            references[lane] = r.reference;
+        }
+        const PlaceLanes<L> i = load_places<L>(first), j = load_places<L>(second);
+        V old[8];
+        L::load_float_rows(references, old);
+        const V zero = L::all(0.0);
+        const Rotation<V> frame = rotation_of<L>(i.q.w, i.q.x, i.q.y, i.q.z);
+        const Triple<V> p = rotate_back(frame, j.p - i.p);
+        const Turn<V> q = product(Turn<V>{i.q.w, zero - i.q.x, zero - i.q.y, zero - i.q.z}, j.q);
+        const Triple<V> shift = p - Triple<V>{old[0], old[1], old[2]};
+        const V w = q.w - old[3], x = q.x - old[4], y = q.y - old[5], z = q.z - old[6];
+        const V moved = L::square_root(dot(shift, shift)) + L::all(2.0) * j.offset * L::square_root(w * w + x * x + y * y + z * z);
+        const unsigned stale = L::bits(L::greater(moved, old[7]));
+        for (std::size_t lane = 0; lane < L::width; ++lane) s.stale[k + lane] = static_cast<std::uint8_t>((stale >> lane) & 1u);
+        const Rotation<V> r = rotation_of<L>(q.w, q.x, q.y, q.z);
+        L::store(s.p[0] + k, p.x), L::store(s.p[1] + k, p.y), L::store(s.p[2] + k, p.z);
+        L::store(s.r[0] + k, r.x.x), L::store(s.r[1] + k, r.x.y), L::store(s.r[2] + k, r.x.z);
+        L::store(s.r[3] + k, r.y.x), L::store(s.r[4] + k, r.y.y), L::store(s.r[5] + k, r.y.z);
+        L::store(s.r[6] + k, r.z.x), L::store(s.r[7] + k, r.z.y), L::store(s.r[8] + k, r.z.z);
+    }
+}
+
+/// Contacts that began or ended since the last step: sets and clears their bits and clears springs. Rare.
+inline void note_changes(const PairBlockView& block, std::size_t first, unsigned touched, unsigned touching, std::size_t lanes, bool keep_history) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        const unsigned bit = 1u << lane;
+        if ((touched & bit) && !(touching & bit)) {
+            block.candidates[first + lane].a = block.candidates[first + lane].sphere_a();
+            block.springs[first + lane] = {0.0, 0.0, 0.0};
+        }
+        if (!(touched & bit) && (touching & bit) && keep_history)
+            block.candidates[first + lane].a = static_cast<std::uint16_t>(block.candidates[first + lane].a | Candidate::touching_bit);
+    }
+}
+
+/// Puts the touching spheres of pair k into the batch.
+template <class S>
+inline void collect_contacts(const PairBlockView& block, const PairScratch& s, std::size_t k, ContactBatch& b, std::uint32_t slot, bool keep_history) {
+    using V = typename S::Real;
+    const PairRecord& record = block.records[k];
+    const Ball *balls_i = block.balls[record.template_i], *balls_j = block.balls[record.template_j];
+    const Triple<V> p{S::all(s.p[0][k]), S::all(s.p[1][k]), S::all(s.p[2][k])};
+    const Rotation<V> r{{S::all(s.r[0][k]), S::all(s.r[1][k]), S::all(s.r[2][k])},
+                        {S::all(s.r[3][k]), S::all(s.r[4][k]), S::all(s.r[5][k])},
+                        {S::all(s.r[6][k]), S::all(s.r[7][k]), S::all(s.r[8][k])}};
+    const std::size_t end = record.first + std::size_t{record.count};
+    for (std::size_t c = record.first; c < end; c += S::width) {
+        // Pools are padded, so a full register may be read.
+        const double *rows_i[S::width], *rows_j[S::width];
+        unsigned touched = 0;
+        for (std::size_t lane = 0; lane < S::width; ++lane) {
+            const Candidate& candidate = block.candidates[c + lane];
+            rows_i[lane] = &balls_i[candidate.a & 0x7fffu].x;
+            rows_j[lane] = &balls_j[candidate.b].x;
+            touched |= static_cast<unsigned>(candidate.a >> 15) << lane;
+        }
+        V ball_i[4], ball_j[4];
+        S::load_short_rows(rows_i, ball_i);
+        S::load_short_rows(rows_j, ball_j);
+        const Triple<V> centre{ball_i[0], ball_i[1], ball_i[2]};
+        const Triple<V> d = rotate(r, Triple<V>{ball_j[0], ball_j[1], ball_j[2]}) + p - centre;
+        const V reach = ball_i[3] + ball_j[3];
+        const std::size_t lanes = end - c < S::width ? end - c : S::width;
+        const unsigned touching = S::bits(S::greater(reach * reach, dot(d, d))) & ((1u << lanes) - 1u);
+        if (touched != touching) note_changes(block, c, touched, touching, lanes, keep_history);
+        if (touching == 0) continue;
+        const std::size_t n = b.size;
+        S::store_chosen(b.dx + n, touching, d.x), S::store_chosen(b.dy + n, touching, d.y), S::store_chosen(b.dz + n, touching, d.z);
+        S::store_chosen(b.ax + n, touching, centre.x), S::store_chosen(b.ay + n, touching, centre.y), S::store_chosen(b.az + n, touching, centre.z);
+        S::store_chosen(b.ra + n, touching, ball_i[3]), S::store_chosen(b.rb + n, touching, ball_j[3]);
+        for (unsigned rest = touching; rest != 0; rest &= rest - 1) {
+            const std::size_t at = c + static_cast<std::size_t>(__builtin_ctz(rest));
+            const Spring& spring = block.springs[at];
+            b.sx[b.size] = spring.x, b.sy[b.size] = spring.y, b.sz[b.size] = spring.z;
+            b.slot[b.size] = slot;
+            b.id[b.size] = static_cast<std::uint32_t>(at);
+            ++b.size;
+        }
+    }
+}
+
+/// Motion of the touching pairs in the frames of their first bodies.
+template <class L>
+inline void find_slots(const PairBlockView& block, PairScratch& s) {
+    using V = typename L::Real;
+    for (std::size_t k = 0; k < s.active_count; k += L::width) {
+        const double *line_i[L::width], *line_j[L::width];
+        const Kinematic* first[L::width];
+        double* targets[L::width];
+        double place[3][L::width], contacts[L::width];
+        for (std::size_t lane = 0; lane < L::width; ++lane) {
+            const std::size_t a = k + lane < s.active_count ? k + lane : s.active_count - 1;
+            const std::uint32_t pair = s.active[a];
+            first[lane] = block.kinematics + block.records[pair].i;
+            line_i[lane] = first[lane]->motion;
+            line_j[lane] = block.kinematics[block.records[pair].j].motion;
+            targets[lane] = s.slots[k + lane].row;
+            for (int c = 0; c < 3; ++c) place[c][lane] = s.p[c][pair];
+            contacts[lane] = static_cast<double>(s.first_contact[a + 1] - s.first_contact[a]);
+        }
+        const PlaceLanes<L> i = load_places<L>(first);
+        V mi[8], mj[8];
+        L::load_rows(line_i, mi);
+        L::load_rows(line_j, mj);
+        const Rotation<V> frame = rotation_of<L>(i.q.w, i.q.x, i.q.y, i.q.z);
+        const Triple<V> wj{mj[3], mj[4], mj[5]}, p{L::load(place[0]), L::load(place[1]), L::load(place[2])};
+        const Triple<V> velocity = rotate_back(frame, Triple<V>{mj[0], mj[1], mj[2]} - Triple<V>{mi[0], mi[1], mi[2]});
+        const Triple<V> spin = rotate_back(frame, wj - Triple<V>{mi[3], mi[4], mi[5]});
+        const Triple<V> at_origin = velocity - cross(rotate_back(frame, wj), p);
+        const V mass = L::all(1.0) / (mi[6] + mj[6]);
+        const V inertia = L::all(rolling_share) / ((mi[7] + mj[7]) * L::load(contacts));
+        const V out[8] = {at_origin.x, at_origin.y, at_origin.z, spin.x, spin.y, spin.z, mass, inertia};
+        L::store_rows(targets, out);
+    }
+}
+
+/// Sums of the contacts of each touching pair, in their order, turned into the world: what each body of the pair feels.
+template <class L>
+inline void write_loads(const PairBlockView& block, PairScratch& s, const ContactBatch& b) {
+    using V = typename L::Real;
+    for (std::size_t a = 0; a < s.active_count; ++a) {
+        double sum[8] = {0, 0, 0, 0, 0, 0, 0, 0};
+        for (std::uint32_t c = s.first_contact[a]; c < s.first_contact[a + 1]; ++c)
+            for (int k = 0; k < 8; ++k) sum[k] += b.result[c].row[k];
+        for (int k = 0; k < 8; ++k) s.sums[a].row[k] = sum[k];
+    }
+    for (std::size_t k = 0; k < s.active_count; k += L::width) {
+        const Kinematic* first[L::width];
+        const double* rows[L::width];
+        double *targets_i[L::width], *targets_j[L::width];
+        double place[3][L::width];
+        for (std::size_t lane = 0; lane < L::width; ++lane) {
+            const std::size_t a = k + lane < s.active_count ? k + lane : s.active_count - 1;
+            const std::uint32_t pair = s.active[a];
+            first[lane] = block.kinematics + block.records[pair].i;
+            rows[lane] = s.sums[a].row;
+            targets_i[lane] = block.loads_i[pair].row;
+            targets_j[lane] = block.loads_j[pair].row;
+            for (int c = 0; c < 3; ++c) place[c][lane] = s.p[c][pair];
+        }
+        const PlaceLanes<L> i = load_places<L>(first);
+        V sum[8];
+        L::load_rows(rows, sum);
+        const V zero = L::all(0.0);
+        const Rotation<V> frame = rotation_of<L>(i.q.w, i.q.x, i.q.y, i.q.z);
+        const Triple<V> force{sum[0], sum[1], sum[2]}, torque{sum[3], sum[4], sum[5]}, p{L::load(place[0]), L::load(place[1]), L::load(place[2])};
+        const Triple<V> f = rotate(frame, force), ti = rotate(frame, torque), tj = rotate(frame, torque - cross(p, force));
+        const V on_i[8] = {zero - f.x, zero - f.y, zero - f.z, zero - ti.x, zero - ti.y, zero - ti.z, zero, zero};
+        const V on_j[8] = {f.x, f.y, f.z, tj.x, tj.y, tj.z, zero, zero};
+        L::store_rows(targets_i, on_i);
+        L::store_rows(targets_j, on_j);
+    }
+}
+
+template <class L, class S, class Law, class Rolling>
+void pair_forces(const LawRow& law, const PairBlockView& block, PairScratch& s, ContactBatch& b, const StepClock& clock) {
+    const bool keep_history = clock.spring_step > 0.0;
+    b.size = 0;
+    s.active_count = 0;
+    s.first_contact[0] = 0;
+    for (std::size_t k = 0; k < block.count; ++k) {
+        block.touching[k] = 0;
+        if (block.records[k].count == 0) continue;
+        const std::size_t before = b.size;
+        collect_contacts<S>(block, s, k, b, s.active_count, keep_history);
+        if (b.size == before) continue;
+        block.touching[k] = 1;
+        s.active[s.active_count] = static_cast<std::uint32_t>(k);
+        s.first_contact[++s.active_count] = static_cast<std::uint32_t>(b.size);
+    }
+    if (b.size == 0) return;
+    find_slots<L>(block, s);
+    contact_forces<L, Law, Rolling>(law, b, s.slots, clock);
+    if (keep_history)
+        for (std::size_t c = 0; c < b.size; ++c) block.springs[b.id[c]] = {b.sx[c], b.sy[c], b.sz[c]};
+    write_loads<L>(block, s, b);
+}
+
+template <class L, class S>
+constexpr Kernels make_kernels(const char* name) {
+    return {name,
+            &drift<L>,
+            &gather<L>,
+            &find_poses<L>,
+            &pair_forces<L, S, HertzMindlinEdem, RollingConstantTorque>,
+            &contact_forces<L, HertzMindlinEdem, RollingConstantTorque>};
+}
+
+}  // namespace
+}  // namespace pelletlab::solver::detail
