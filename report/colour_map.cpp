@@ -33,7 +33,7 @@ Encoded encoded_from_lab(double lightness, double a, double b) {
             srgb_from_linear(0.0556434 * x - 0.2040259 * y + 1.0572252 * z)};
 }
 
-/// Cool–warm map in Msh space: K. Moreland (2009), "Diverging color maps for scientific visualization", ISVC 2009, LNCS 5876:92–103.
+/// Cool–warm map in Msh space: K. Moreland (2009), ISVC 2009, LNCS 5876:92–103; key moreland2009.
 /// Made for shaded surfaces: both ends are equally dark, the middle is light grey.
 Encoded cool_warm(double t) {
     constexpr double end_m = 80.0, end_s = 1.08, middle_m = 88.0;

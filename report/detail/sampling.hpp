@@ -13,7 +13,7 @@ namespace pelletlab::report::detail {
 using Point2 = std::array<double, 2>;
 
 /// Three patterns on the unit square for one pixel: where rays start, where the key light is met, where the sky is met. Each is Roberts' R2
-/// sequence (M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences") with a random shift (Cranley & Patterson 1976).
+/// sequence (M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences") with a random shift (Cranley & Patterson 1976; key cranley1976).
 class PixelSamples {
 public:
     explicit PixelSamples(std::uint64_t pixel) {
@@ -36,7 +36,7 @@ private:
     std::array<Point2, 3> shifts_;
 };
 
-/// Two unit vectors that make a right-handed frame with the unit vector n (Duff et al. 2017, J. Comput. Graph. Tech. 6(1)).
+/// Two unit vectors that make a right-handed frame with the unit vector n (Duff et al. 2017; key duff2017).
 inline std::array<Vec3f, 2> tangents(const Vec3f& n) {
     const float sign = std::copysign(1.0f, n.z());
     const float a = -1.0f / (sign + n.z()), b = n.x() * n.y() * a;
