@@ -170,6 +170,17 @@ struct Storage::Open {
         if (!ours) throw unexpected(path, "is not stored the way pelletlab stores it");
     }
 
+    /// The same for a single value or text.
+    void check_single(const Handle& set, const std::string& path, hid_t type) const {
+        const Handle stored(H5Dget_type(set.id()), H5Tclose);
+        const Handle space(H5Dget_space(set.id()), H5Sclose);
+        const Handle properties(H5Dget_create_plist(set.id()), H5Pclose);
+        const bool ours = H5Tequal(stored.id(), type) > 0 && H5Sget_simple_extent_type(space.id()) == H5S_SCALAR &&
+                          H5Pget_layout(properties.id()) == H5D_CONTIGUOUS && H5Pget_external_count(properties.id()) == 0 &&
+                          H5Dget_storage_size(set.id()) == H5Tget_size(type);
+        if (!ours) throw unexpected(path, "is not stored the way pelletlab stores it");
+    }
+
     /// A damaged header may claim sizes that no memory holds: deflate shrinks by 1030 at most, so the stored bytes bound the true ones.
     void check_stored_size(const Handle& set, const std::string& path, const std::vector<hsize_t>& sizes, std::size_t element_bytes) const {
         hsize_t bytes = element_bytes;
@@ -302,13 +313,12 @@ std::string Storage::text(const std::string& path) const {
     const QuietErrors quiet;
     const Handle set = open_->open(path);
     const Handle type(H5Dget_type(set.id()), H5Tclose);
-    const Handle space(H5Dget_space(set.id()), H5Sclose);
-    if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0 || H5Sget_simple_extent_npoints(space.id()) != 1)
-        throw open_->unexpected(path, "is no text");
+    if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0) throw open_->unexpected(path, "is no text");
     const std::size_t length = H5Tget_size(type.id());
     if (length > (std::size_t{1} << 30)) throw open_->unexpected(path, "is impossibly large");
-    std::string text(length, '\0');
     const Handle memory = Open::string_type(length);
+    open_->check_single(set, path, memory.id());
+    std::string text(length, '\0');
     if (H5Dread(set.id(), memory.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0) throw open_->failure("cannot read", path);
     text.resize(text.find_last_not_of('\0') + 1);
     return text;
@@ -340,7 +350,7 @@ std::vector<std::uint32_t> Storage::indices(const std::string& path, std::size_t
 std::uint64_t Storage::whole(const std::string& path) const {
     const QuietErrors quiet;
     const Handle set = open_->open(path);
-    open_->shape(set, path, 0, H5T_INTEGER);
+    open_->check_single(set, path, H5T_STD_U64LE);
     std::uint64_t value = 0;
     if (H5Dread(set.id(), H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) < 0) throw open_->failure("cannot read", path);
     return value;
