@@ -14,7 +14,7 @@ namespace {
 std::vector<FormatFile> write(const ClumpTemplate& clump, const WriteOptions& options) {
     require_complete(clump);
     const MassProperties& mass = clump.rigid.mass_properties;
-    const Units units = units_for(options, "mm", "kg");
+    const Units units = units_for({options.length_unit, "kg"}, "mm", "kg");
     const std::string name = safe_name(clump);
     const std::string unit = " [" + units.length + "]";
     std::string text =

@@ -21,7 +21,7 @@ struct FormatFile {
 
 struct WriteOptions {
     std::string length_unit;     ///< «mm», «m», …; empty: the usual one of the format
-    std::string mass_unit;       ///< «kg», «g», …; empty: the usual one of the format
+    std::string mass_unit;       ///< «kg», «g», …; empty: the usual one; LIGGGHTS, EDEM and VTK get kg always
     int atom_type = 1;           ///< LIGGGHTS, LAMMPS: type of the spheres
     int template_type = 1;       ///< LIGGGHTS: number of the multisphere template, 1 … number of templates
     double surface_voxel = 0.0;  ///< [m], STL: edge of the sampling cells; 0: 1/128 of the longest edge, finer for small spheres

@@ -18,7 +18,7 @@ std::vector<FormatFile> write(const ClumpTemplate& clump, const WriteOptions& op
     const std::vector<Sphere>& spheres = clump.rigid.spheres;
     const MassProperties& mass = clump.rigid.mass_properties;
     if (spheres.size() < 2) throw bad_input("LIGGGHTS takes no multisphere template of one sphere", "use fix particletemplate/sphere there");
-    const Units units = units_for(options, "mm", "kg");
+    const Units units = units_for({options.length_unit, "kg"}, "mm", "kg");
     const std::string name = safe_name(clump);
     const std::string file = name + ".liggghts.txt";
 

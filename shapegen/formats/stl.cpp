@@ -27,7 +27,7 @@ void append(std::string& bytes, const Vec3& v) {
 
 std::vector<FormatFile> write(const ClumpTemplate& clump, const WriteOptions& options) {
     require_complete(clump);
-    const Units units = units_for(options, "mm", "kg");
+    const Units units = units_for({options.length_unit, "kg"}, "mm", "kg");
     const UnionSurface surface = union_surface(clump.rigid.spheres, options.surface_voxel);
     std::string bytes = "PelletLab union of spheres, unit " + units.length + ", " + safe_name(clump);
     bytes.resize(80, ' ');

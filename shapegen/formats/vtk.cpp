@@ -17,7 +17,7 @@ std::vector<FormatFile> write(const ClumpTemplate& clump, const WriteOptions& op
     require_complete(clump);
     const std::vector<Sphere>& spheres = clump.rigid.spheres;
     const MassProperties& mass = clump.rigid.mass_properties;
-    const Units units = units_for(options, "m", "kg");
+    const Units units = units_for({options.length_unit, "kg"}, "m", "kg");
     const std::string count = std::to_string(spheres.size());
     std::string text = "# vtk DataFile Version 3.0\n" + header_line(clump, units) + "\nASCII\nDATASET POLYDATA\n";
     text += "FIELD FieldData 4\nmass_kg 1 1 double\n" + exact(mass.mass) + "\nvolume_m3 1 1 double\n" + exact(mass.volume) +
