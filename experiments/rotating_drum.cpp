@@ -17,7 +17,8 @@ namespace pelletlab::experiments {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double sparse = 10.0;  // frames before the measurement are stored at this many times frame_interval
+constexpr double elbow_room = 1.2;  // sites of the closest lattice a pellet: with less the cloud stays a crystal
+constexpr double sparse = 10.0;     // frames before the measurement are stored at this many times frame_interval
 
 /// Area of the part of a circle below z = level [m²].
 double segment_area(double radius, double level) {
@@ -36,7 +37,7 @@ packing::InsertionRegion cloud_region(const Case& c, const RigidTemplate& pellet
         (segment_area(region.radius, middle) < wanted ? below : above) = middle;
     }
     region.ceiling = above + 2.0 * pellet.bounding_radius;
-    while (region.ceiling < region.radius && packing::cloud_capacity(pellet, region) < count) region.ceiling += 0.5 * pellet.bounding_radius;
+    while (region.ceiling < region.radius && packing::cloud_capacity(pellet, region) < elbow_room * count) region.ceiling += 0.5 * pellet.bounding_radius;
     region.ceiling = std::min(region.ceiling, region.radius);
     return region;
 }

@@ -15,10 +15,21 @@ namespace pelletlab::packing {
 
 namespace {
 
-/// Height that gives the cloud its packing fraction between bounding spheres that reach over its ends.
-double cloud_height(const Case& c, const RigidTemplate& pellet) {
+constexpr double elbow_room = 1.2;  // sites of the closest lattice a pellet: with less the cloud stays a crystal
+
+/// Where the loose pellets go. A tube of given height is filled up to insertion.packing_fraction or to its rim, and a tube as high as needed is made higher
+/// while the bounding spheres of the pellets (long ones, or a narrow tube) have no room at that packing fraction.
+InsertionRegion cloud_region(const Case& c, const RigidTemplate& pellet) {
     const double section = std::numbers::pi * 0.25 * c.tube.diameter * c.tube.diameter;
-    return c.pellet.count * pellet.mass_properties.volume / (c.insertion.packing_fraction * section) + 2.0 * pellet.bounding_radius;
+    const double wanted = c.pellet.count * pellet.mass_properties.volume / (c.insertion.packing_fraction * section) + 2.0 * pellet.bounding_radius;
+    InsertionRegion region{InsertionRegion::Axis::z, 0.5 * c.tube.diameter, 0.0, wanted};
+    if (c.tube.height > 0.0) {
+        region.upper = std::min(wanted, c.tube.height);
+        if (cloud_capacity(pellet, region) < c.pellet.count) region.upper = c.tube.height;
+        return region;
+    }
+    while (cloud_capacity(pellet, region) < elbow_room * c.pellet.count) region.upper *= 1.05;
+    return region;
 }
 
 /// The user's own tube: it must be where the measurement expects it.
@@ -61,11 +72,10 @@ Vec3 falling(const Case& c) {
 RunResult fill_tube(const Case& c, const RunInputs& inputs, const std::function<FrameSink(const TrajectoryHeader&)>& open_sink, const ProgressSink& progress) {
     if (c.rig != Rig::tube) throw bad_input("the case '" + c.name + "' is not a tube", "set rig = \"tube\"");
     if (c.pellet.count == 0) throw bad_input("pellet.count is 0: a tube needs a number of pellets", "set pellet.count");
-    const double wanted_top = cloud_height(c, inputs.clump.rigid);
-    const double cloud_top = c.tube.height > 0.0 ? std::min(wanted_top, c.tube.height) : wanted_top;
-    const InsertionRegion region{InsertionRegion::Axis::z, 0.5 * c.tube.diameter, 0.0, cloud_top};
-
-    solver::Simulation simulation(define_simulation(c, inputs, tube_walls(c, cloud_top)));
+    solver::SimulationDefinition definition = define_simulation(c, inputs, {});
+    const InsertionRegion region = cloud_region(c, definition.templates.front());
+    definition.walls = tube_walls(c, region.upper);
+    solver::Simulation simulation(std::move(definition));
     simulation.add_bodies(loose_cloud(simulation.definition().templates.front(), c.pellet.count, region, c.seed, falling(c)));
 
     Trajectory last;  // the bed is measured from one frame

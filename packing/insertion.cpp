@@ -55,7 +55,7 @@ std::vector<solver::BodyPlacement> loose_cloud(const RigidTemplate& pellet, std:
         throw bad_input("more pellets than fit: " + std::to_string(count) + " were asked for, " + std::to_string(centres.size()) +
                             " can be placed without touching in a space " + millimetres(2.0 * region.radius) + " wide and " +
                             millimetres(region.upper - region.lower) + " long",
-                        "lower pellet.count, or insertion.packing_fraction if the tube may be higher");
+                        "lower pellet.count, or make the tube or drum larger");
     for (Vec3& centre : centres) centre = to_world(centre, region, radius);
     std::sort(centres.begin(), centres.end(), [](const Vec3& a, const Vec3& b) { return std::tie(a.z(), a.x(), a.y()) < std::tie(b.z(), b.x(), b.y()); });
     std::vector<solver::BodyPlacement> bodies(count);

@@ -1,0 +1,92 @@
+#include "experiments/rotating_drum.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "tests/unit/packing/small_case.hpp"
+
+using namespace pelletlab;
+using namespace pelletlab::experiments;
+using pelletlab::small_case::drum_case;
+using pelletlab::small_case::dumbbell_inputs;
+
+namespace {
+
+const Observable& find(const Observables& observables, const std::string& name) {
+    for (const Observable& o : observables.values)
+        if (o.name == name) return o;
+    throw std::runtime_error("no observable " + name);
+}
+
+}  // namespace
+
+TEST(PelletCount, FollowsFromTheFillFraction) {
+    DrumRig drum;
+    drum.diameter = 0.240;
+    drum.length = 0.090;
+    drum.fill_fraction = 0.20;
+    drum.bulk_packing_fraction = 0.60;
+    const double pellet_volume = 22.63e-9;
+    // π/4 · 240² · 90 mm³ · 0.2 · 0.6 / 22.63 mm³ = 21590: the study's «22,000 pellets» within 2 %.
+    EXPECT_EQ(pellet_count(drum, pellet_volume), 21590u);
+    EXPECT_THROW(pellet_count(drum, 1.0), Error) << "less than one pellet";
+    EXPECT_THROW(pellet_count(drum, 1e-20), Error) << "a pellet in the wrong unit";
+}
+
+TEST(RotatingDrum, LiftsItsBedOnTheLeft) {
+    const Case c = drum_case(120);
+    std::vector<Frame> frames;
+    const auto result = run_drum(c, dumbbell_inputs(),
+                                 [&](const TrajectoryHeader& header) {
+                                     EXPECT_EQ(header.walls.size(), 3u);
+                                     return packing::FrameSink([&](const Frame& frame) { frames.push_back(frame); });
+                                 },
+                                 {});
+    // 5 rad/s about +y carries the bottom towards −x, so the bed's surface is high on the left: its angle is positive and well above zero.
+    EXPECT_GT(find(result.observables, "centre_of_mass_angle").value, 10.0);
+    EXPECT_LT(find(result.observables, "centre_of_mass_angle").value, 70.0);
+    // A bed of eight pellet diameters shears down to the wall, so its lower layer turns more slowly than the drum, and never faster.
+    EXPECT_GT(find(result.observables, "rigid_layer_rotation").value, 0.3);
+    EXPECT_LT(find(result.observables, "rigid_layer_rotation").value, 1.05);
+    EXPECT_NEAR(find(result.observables, "bed_height").window.end - find(result.observables, "bed_height").window.begin, 0.19, 1e-6);
+    // Frames: the cloud, sparse ones of settling and spin-up, 20 of the measurement.
+    ASSERT_GT(frames.size(), 22u);
+    for (std::size_t k = frames.size() - 19; k < frames.size(); ++k) EXPECT_NEAR(frames[k].time - frames[k - 1].time, 0.01, 1e-9);
+    EXPECT_GT(frames[1].time - frames[0].time, 0.05);
+    // All three walls have turned by Ω t since the rotation began.
+    const double turned = Eigen::AngleAxisd(frames.back().wall_poses[0].orientation).angle();
+    EXPECT_NEAR(turned, c.drum.speed * (c.time.spin_up + c.time.measure), 1e-3);
+    for (const Pose& pose : frames.back().wall_poses) EXPECT_TRUE(pose.orientation.isApprox(frames.back().wall_poses[0].orientation, 1e-12));
+}
+
+TEST(RotatingDrum, EndPlatesMayStandStill) {
+    Case c = drum_case(40);
+    c.drum.end_plates_rotate = false;
+    c.time.measure = 0.05;
+    Frame last;
+    run_drum(c, dumbbell_inputs(), [&](const TrajectoryHeader&) { return packing::FrameSink([&](const Frame& frame) { last = frame; }); }, {});
+    EXPECT_GT(Eigen::AngleAxisd(last.wall_poses[0].orientation).angle(), 0.1);
+    EXPECT_EQ(Eigen::AngleAxisd(last.wall_poses[1].orientation).angle(), 0.0);
+    EXPECT_EQ(Eigen::AngleAxisd(last.wall_poses[2].orientation).angle(), 0.0);
+}
+
+TEST(RotatingDrum, SameBitsForOneAndTwoThreads) {
+    Case c = drum_case(60);
+    c.time.measure = 0.1;
+    set_thread_count(1);
+    const auto one = run_drum(c, dumbbell_inputs(), {}, {});
+    set_thread_count(2);
+    const auto two = run_drum(c, dumbbell_inputs(), {}, {});
+    set_thread_count(0);
+    EXPECT_EQ(one.state_hash, two.state_hash);
+    EXPECT_EQ(find(one.observables, "upper_angle_of_repose").value, find(two.observables, "upper_angle_of_repose").value);
+}
+
+TEST(RotatingDrum, RefusesACaseOfAnotherRig) {
+    Case c = drum_case(10);
+    c.rig = Rig::tube;
+    EXPECT_THROW(run_drum(c, dumbbell_inputs(), {}, {}), Error);
+}
