@@ -33,6 +33,12 @@ public:
 /// Needs a closed, consistently oriented mesh: throws Error(bad_input) for a mesh that require_closed_body would have to change.
 std::unique_ptr<SignedDistance> exact_signed_distance(const TriangleMesh& mesh);
 
+/// Distance to the triangles of any mesh, open, crossing itself or of several shells, with the sign from the generalised winding number: inside where the
+/// surface goes round the point more than half (Jacobson et al. 2013; tree of Barill et al. 2018; key barill2018). The value is exact up to its sign, which
+/// changes without passing zero across the mouth of a hole. The triangles should agree about outside: check().inconsistent_edges = 0.
+/// Throws Error(bad_input) for a mesh without triangles or with triangles without area.
+std::unique_ptr<SignedDistance> winding_signed_distance(const TriangleMesh& mesh);
+
 /// Who computes the distances at the points of a grid. Both fill the whole interior and the rim.
 enum class GridFill {
     exact_query,  ///< the exact query at each point: faster here, and exact at the points

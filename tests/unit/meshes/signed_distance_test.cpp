@@ -7,6 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "core/random.hpp"
+#include "meshes/detail/fast_winding.hpp"
 #include "meshes/detail/winding.hpp"
 #include "meshes/makers.hpp"
 #include "support.hpp"
@@ -171,6 +172,43 @@ TEST(ExactDistance, RefusesOpenAndMixedMeshes) {
     test::refusal([&] { exact_signed_distance(mixed); });
     test::refusal([&] { exact_signed_distance({}); });
     test::refusal([&] { grid_signed_distance(open, 1e-4); });
+}
+
+TEST(WindingDistance, AgreesWithTheExactOneOnClosedMeshes) {
+    for (const TriangleMesh& mesh : {make_cylinder(3.12e-3, 2.96e-3, 32), l_bar(), make_sphere(2e-3, 3)}) {
+        const auto exact = exact_signed_distance(mesh), winding = winding_signed_distance(mesh);
+        for (const Vec3& p : cloud(5000, 2.5e-3, 9)) {
+            ASSERT_EQ(exact->value(p), winding->value(p)) << p.transpose();
+            ASSERT_LT((exact->gradient(p) - winding->gradient(p)).norm(), 1e-12);
+        }
+    }
+}
+
+TEST(WindingDistance, TreeIsOffByLessThanAHundredth) {
+    for (TriangleMesh mesh : {make_cylinder(3.12e-3, 2.96e-3, 32), make_sphere(2e-3, 4)}) {
+        mesh.faces.resize(mesh.faces.size() * 2 / 3);  // open
+        const detail::FastWinding fast(mesh);
+        for (const Vec3& p : cloud(1000, 4e-3, 10))
+            ASSERT_NEAR(fast(p), detail::winding_number(mesh, p, [](std::size_t) { return true; }), 0.01) << p.transpose();
+    }
+}
+
+TEST(WindingDistance, OpenAndCrossingMeshesHaveAnInside) {
+    TriangleMesh open = make_sphere(2e-3, 3);
+    open.faces.resize(open.faces.size() - 40);
+    const auto distance = winding_signed_distance(open);
+    std::size_t wrong = 0;
+    const std::vector<Vec3> points = cloud(4000, 1.5e-3, 11);
+    for (const Vec3& p : points) wrong += (distance->value(p) < 0.0) != (p.norm() < 1e-3);
+    EXPECT_LT(wrong, points.size() / 50);  // points in the mouth of the hole, 3 % of the surface
+    EXPECT_LT(distance->value(Vec3::Zero()), 0.0);
+
+    // Two crossing boxes: inside is what lies in either.
+    const auto boxes = winding_signed_distance(test::joined(make_box({0, 0, 0}, {2e-3, 2e-3, 2e-3}), make_box({1e-3, 1e-3, 1e-3}, {3e-3, 3e-3, 3e-3})));
+    EXPECT_LT(boxes->value({1.5e-3, 1.5e-3, 1.5e-3}), 0.0);
+    EXPECT_LT(boxes->value({0.5e-3, 0.5e-3, 0.5e-3}), 0.0);
+    EXPECT_GT(boxes->value({2.5e-3, 0.5e-3, 0.5e-3}), 0.0);
+    test::refusal([] { winding_signed_distance({}); });
 }
 
 class GridDistance : public testing::TestWithParam<GridFill> {};
