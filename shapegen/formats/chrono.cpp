@@ -22,6 +22,9 @@ std::vector<FormatFile> write(const ClumpTemplate& clump, const WriteOptions& op
     const double size = units.in_length(bounding_radius(clump.rigid.spheres));
     if (!(size > 1e-30 && size < 1e30))
         throw bad_input("DEM-Engine works in single precision: a clump of size " + exact(size) + " is out of its range", "use another unit of length");
+    for (const Sphere& s : clump.rigid.spheres)
+        if (units.in_length(s.radius) < 1e-7 * size)
+            throw bad_input("DEM-Engine works in single precision: a sphere is smaller than 1e-7 of the clump", "drop it");
     const int decimals = std::clamp(10 - static_cast<int>(std::floor(std::log10(size))), 0, 60);
     std::string text = "x,y,z,r\n";
     for (const Sphere& s : clump.rigid.spheres)

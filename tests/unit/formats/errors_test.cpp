@@ -138,6 +138,9 @@ TEST(Writers, RefuseWhatTheProgramCannotTake) {
     ClumpTemplate tiny = dumbbell();
     tiny.rigid.mass_properties.principal_inertia *= 1e-30;
     EXPECT_NE(problem_of([&] { find("mercury").write(tiny, {}); }).find("single precision"), std::string::npos);
+    ClumpTemplate sliver = dumbbell();
+    sliver.rigid.spheres[0].radius = 1e-11;  // would be printed as 0 (found by the fuzzer)
+    EXPECT_NE(problem_of([&] { find("chrono").write(sliver, {}); }).find("1e-7 of the clump"), std::string::npos);
 }
 
 TEST(Writers, RefuseIncompleteClumps) {
