@@ -62,7 +62,7 @@ void fix_drum(const FrameSource& trajectory, const std::vector<std::size_t>& fra
         std::vector<double> speeds;
         for (const Vec3& velocity : trajectory.frame(index).velocities) speeds.push_back(velocity.norm());
         if (std::all_of(speeds.begin(), speeds.end(), [](double speed) { return speed == 0.0; })) continue;
-        widest.upper = std::max(widest.upper, detail::automatic_range(speeds, 0.995).upper);
+        widest.upper = std::max(widest.upper, detail::automatic_range(speeds, 0.98).upper);
     }
     if (widest.upper > 0.0) picture.range = widest;
 }

@@ -131,14 +131,32 @@ void fill_convex(Image& image, std::span<const Point> corners, const Srgb& colou
     mask.lay_on(image, colour, opacity);
 }
 
-void draw_arrow(Image& image, Point from, Point to, double width, const Srgb& colour, double opacity) {
+void fill_outside_circle(Image& image, double left, double top, double right, double bottom, Point centre, double radius, const Srgb& colour) {
+    Mask mask(image, left, top, right, bottom);
+    if (mask.empty()) return;
+    mask.for_box(left, top, right, bottom, [&](std::int64_t x, std::int64_t y) {
+        const double distance = std::hypot(static_cast<double>(x) + 0.5 - centre.x, static_cast<double>(y) + 0.5 - centre.y);
+        mask.at(x, y) = static_cast<float>(std::clamp(distance - radius + 0.5, 0.0, 1.0));
+    });
+    mask.lay_on(image, colour, 1.0);
+}
+
+void draw_arrow(Image& image, Point from, Point to, double width, const Srgb& colour, double rim, const Srgb& rim_colour) {
     const double dx = to.x - from.x, dy = to.y - from.y, length = std::hypot(dx, dy);
     if (!(length > 0.0)) return;
     const double head = std::min(4.2 * width, length), half = 0.42 * head;
     const Point base = {to.x - dx / length * head, to.y - dy / length * head};
-    if (length > head) draw_line(image, from, {base.x + 0.3 * width * dx / length, base.y + 0.3 * width * dy / length}, width, colour, opacity);
-    const Point corners[3] = {to, {base.x - dy / length * half, base.y + dx / length * half}, {base.x + dy / length * half, base.y - dx / length * half}};
-    fill_convex(image, corners, colour, opacity);
+    const std::vector<Point> corners = {
+        to, {base.x - dy / length * half, base.y + dx / length * half}, {base.x + dy / length * half, base.y - dx / length * half}};
+    const Point neck = {base.x + 0.3 * width * dx / length, base.y + 0.3 * width * dy / length};
+    if (rim > 0.0) {
+        if (length > head) draw_line(image, from, neck, width + 2.0 * rim, rim_colour);
+        std::vector<Point> closed = corners;
+        closed.push_back(to);
+        draw_strokes(image, {&closed, 1}, 2.0 * rim, rim_colour);
+    }
+    if (length > head) draw_line(image, from, neck, width, colour);
+    fill_convex(image, corners, colour);
 }
 
 }  // namespace pelletlab::report

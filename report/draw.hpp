@@ -22,7 +22,10 @@ void fill_rectangle(Image& image, double left, double top, double right, double 
 /// Convex polygon, either sense of rotation; 1-pixel smooth rim.
 void fill_convex(Image& image, std::span<const Point> corners, const Srgb& colour, double opacity = 1.0);
 
-/// Shaft and filled head; the tip is `to`. Arrows shorter than their head become a small head.
-void draw_arrow(Image& image, Point from, Point to, double width, const Srgb& colour, double opacity = 1.0);
+/// Lays a colour on the rectangle's part outside the circle.
+void fill_outside_circle(Image& image, double left, double top, double right, double bottom, Point centre, double radius, const Srgb& colour);
+
+/// Shaft and filled head; the tip is `to`. Arrows shorter than their head become a small head. With a rim, that many pixels round it in the rim's colour.
+void draw_arrow(Image& image, Point from, Point to, double width, const Srgb& colour, double rim = 0.0, const Srgb& rim_colour = {255, 255, 255});
 
 }  // namespace pelletlab::report

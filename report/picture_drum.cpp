@@ -35,17 +35,18 @@ std::vector<Vec3> outline_of(const Box& box) {
     return points;
 }
 
-/// Scale below the colour bar, true in the drum's middle plane.
-void draw_scale(Image& image, const Camera& camera, const Vec3& centre, const detail::Page& page, double left) {
+/// Scale in the lower right corner, true in the drum's middle plane.
+void draw_scale(Image& image, const Camera& camera, const Vec3& centre, const detail::Page& page) {
     const detail::CameraRays rays(camera, image.width, image.height);
     const auto a = rays.project(centre), b = rays.project(centre + 1e-3 * Vec3::UnitX());
-    const double pixels_per_mm = (*b)[0] - (*a)[0], room = image.width - page.margin - left;
+    const double pixels_per_mm = (*b)[0] - (*a)[0], room = 0.16 * image.width;
     double shown = 0.0;  // largest of 1, 2, 5 times a power of ten that fits
     for (const double digit : {1.0, 2.0, 5.0}) {
         const double candidate = digit * std::pow(10.0, std::floor(std::log10(room / pixels_per_mm / digit)));
         if (candidate * pixels_per_mm <= room) shown = std::max(shown, candidate);
     }
-    const double y = image.height - page.margin, tick = 5.0 * page.unit, line = std::max(1.0, 1.5 * page.unit), right = left + shown * pixels_per_mm;
+    const double y = image.height - page.margin, tick = 5.0 * page.unit, line = std::max(1.0, 1.5 * page.unit);
+    const double right = image.width - page.margin, left = right - shown * pixels_per_mm;
     const std::vector<std::vector<Point>> strokes = {{{left, y - tick}, {left, y}, {right, y}, {right, y - tick}}};
     draw_strokes(image, strokes, line, page.text.colour);
     draw_text(image, left, y - tick - 0.7 * page.text.cap_height, tick_text(shown, shown < 1.0 ? 2 : 0) + " mm", page.text);
@@ -58,7 +59,7 @@ Image picture_of_drum(const TrajectoryHeader& header, const Frame& frame, const 
     const Box box = detail::wall_box(header, frame);
     if (box.isEmpty()) throw bad_input("the drum to draw has no walls");
     const detail::Page page(settings.width);
-    const ValueRange range = settings.range.value_or(detail::automatic_range(values.value, 0.995));
+    const ValueRange range = settings.range.value_or(detail::automatic_range(values.value, 0.98));
 
     Scene scene;
     scene.objects = detail::pellets(header, frame, values, range, settings.draw_spheres);
@@ -76,7 +77,7 @@ Image picture_of_drum(const TrajectoryHeader& header, const Frame& frame, const 
     const detail::Viewport viewport{page.margin, head, page.margin + drum_width, height - page.margin};
     const Camera camera = detail::fit_camera(outline, Vec3::UnitY(), Vec3::UnitZ(), field_of_view, settings.width, height, viewport);
     Image image = render(scene, camera, settings.width, height, settings.samples);
-    draw_scale(image, camera, box.center(), page, settings.width - bar + page.margin);
+    draw_scale(image, camera, box.center(), page);
     detail::finish_bed_picture(image, header, frame, values, range, settings);
     return image;
 }

@@ -144,11 +144,8 @@ void draw_arrows(Image& image, const ArrowField& field, const Plot& plot, const 
         const double dx = 0.5 * per * field.velocity[i].x, dy = -0.5 * per * field.velocity[i].y;
         if (std::hypot(dx, dy) < 0.75) continue;  // shorter than a pixel and a half: at rest
         const Srgb ink = ink_on(pixel_at(image, x, y));
-        const double length = std::hypot(dx, dy), rim = 1.1 * page.unit;
-        // A white arrow may reach over the edge of the bed: a dark rim keeps it visible there.
-        if (ink[0] > 128)
-            draw_arrow(image, {x - dx, y - dy}, {x + dx * (1.0 + rim / length), y + dy * (1.0 + rim / length)}, width + 2.0 * rim, ink_on(ink), 0.55);
-        draw_arrow(image, {x - dx, y - dy}, {x + dx, y + dy}, width, ink, 0.92);
+        const bool bright = ink[0] > 128;  // such an arrow may reach over the edge of the bed: a thin dark rim keeps it visible there
+        draw_arrow(image, {x - dx, y - dy}, {x + dx, y + dy}, width, ink, bright ? 0.8 * page.unit : 0.0, {72, 78, 110});
     }
     const double shown = round_up(field.long_speed), length = longest * shown / field.long_speed;
     const double y = plot.bottom - 0.5 * page.text.cap_height;
@@ -200,8 +197,12 @@ Image picture_of_map(const Observables& observables, const std::string& map_name
 
     Image image = blank_image(settings.width, static_cast<std::uint32_t>(std::ceil(plot.bottom + 1.4 * page.margin + 4.4 * page.text.cap_height)));
     draw_cells(image, map, plot, bar.map, bar.range);
-    if (settings.circle_diameter > 0.0)
-        draw_circle(image, {plot.x(0.0), plot.y(0.0)}, 0.5 * settings.circle_diameter * plot.scale, 2.0 * page.unit, page.text.colour);
+    if (settings.circle_diameter > 0.0) {
+        const Point centre = {plot.x(0.0), plot.y(0.0)};
+        const double radius = 0.5 * settings.circle_diameter * plot.scale;
+        fill_outside_circle(image, plot.left, plot.top, plot.right, plot.bottom, centre, radius, {255, 255, 255});  // cells on the wall reach beyond it
+        draw_circle(image, centre, radius, 2.0 * page.unit, page.text.colour);
+    }
     const double bar_left = plot.right + page.margin, bar_height = std::min(0.55 * (plot.bottom - plot.top), 420.0 * page.unit);
     const FieldMap *u = find_map(observables, "vx"), *w = find_map(observables, "vz");
     if (u != nullptr && w != nullptr && map.unit == u->unit && same_grid(map, *u) && same_grid(map, *w))

@@ -140,11 +140,11 @@ void Painter::light_every_ray(Packet& packet, const PixelSamples& pattern, std::
     for (std::size_t i = 0; i < packet.count; ++i) {
         Sight& seen = packet.seen[i];
         if (seen.thing == PixelRecord::nothing) continue;
-        const Vec3f sky_direction = cosine_direction(seen.normal, pattern.sky(first + i));
+        const Vec3f sky_direction = above(cosine_direction(seen.normal, pattern.sky(first + i)), seen.true_normal);
         shade(seen, packet.rays.along(i));
         sky_rays.set(i, seen.point, sky_direction, 0.0f, far_away);
         if (seen.normal.dot(light_.to_key) > 0.0f)
-            key_rays.set(i, seen.point, cone_direction(light_.to_key, light_.key_spread, pattern.key(first + i)), 0.0f, far_away);
+            key_rays.set(i, seen.point, above(cone_direction(light_.to_key, light_.key_spread, pattern.key(first + i)), seen.true_normal), 0.0f, far_away);
     }
     Lanes<bool> key_blocked, sky_blocked;
     tracer_.blocked(key_rays, key_blocked);
@@ -157,7 +157,7 @@ void Painter::light_every_ray(Packet& packet, const PixelSamples& pattern, std::
 
 /// Pixels inside a surface: one packet holds up to eight rays to the key light and eight to the sky; smoothing over neighbours makes up for the rest.
 /// Returns how many of the camera rays it took.
-std::size_t Painter::light_some_rays(Packet& packet, const PixelSamples& pattern) const {
+std::size_t Painter::light_some_rays(Packet& packet, const PixelSamples& pattern, std::size_t first) const {
     constexpr std::size_t half = packet_size / 2;
     RayPacket rays;
     const std::size_t count = std::min(half, packet.count);
@@ -165,9 +165,9 @@ std::size_t Painter::light_some_rays(Packet& packet, const PixelSamples& pattern
     for (std::size_t i = 0; i < count; ++i) {
         Sight& seen = packet.seen[i];
         shade(seen, packet.rays.along(i));
-        rays.set(half + i, seen.point, cosine_direction(seen.normal, pattern.sky(i)), 0.0f, far_away);
+        rays.set(half + i, seen.point, above(cosine_direction(seen.normal, pattern.sky(first + i)), seen.true_normal), 0.0f, far_away);
         if (seen.normal.dot(light_.to_key) <= 0.0f) continue;
-        rays.set(i, seen.point, cone_direction(light_.to_key, light_.key_spread, pattern.key(i)), 0.0f, far_away);
+        rays.set(i, seen.point, above(cone_direction(light_.to_key, light_.key_spread, pattern.key(first + i)), seen.true_normal), 0.0f, far_away);
         key_tried += 1.0f;
     }
     Lanes<bool> blocked;
@@ -210,13 +210,13 @@ void Painter::add_glass(Packet& packet) const {
 }
 
 /// One instance (or the ground, or nothing) fills the pixel.
-PixelRecord Painter::whole_pixel(Packet& packet, const PixelSamples& pattern) const {
+PixelRecord Painter::whole_pixel(Packet& packet, const PixelSamples& pattern, std::size_t first) const {
     PixelRecord record;
     record.thing = packet.seen[0].thing;
     if (record.thing == PixelRecord::nothing) {
         record.open_sky = background_;
     } else {
-        const std::size_t lit = light_some_rays(packet, pattern);
+        const std::size_t lit = light_some_rays(packet, pattern, first);
         const float share = 1.0f / static_cast<float>(lit);
         for (std::size_t i = 0; i < lit; ++i) {
             record.key += share * packet.seen[i].key;
@@ -253,19 +253,48 @@ Light Painter::mixed_pixel(Packet& packet, const PixelSamples& pattern, std::siz
     return sum;
 }
 
+namespace {
+
+PixelRecord mean_of(const PixelRecord& a, float weight_a, const PixelRecord& b, float weight_b) {
+    const float share = weight_b / (weight_a + weight_b), rest = 1.0f - share;
+    PixelRecord mean = a;
+    mean.normal = (rest * a.normal + share * b.normal).normalized();
+    mean.key = rest * a.key + share * b.key;
+    mean.open_sky = rest * a.open_sky + share * b.open_sky;
+    mean.blocked_sky = rest * a.blocked_sky + share * b.blocked_sky;
+    mean.key_seen = rest * a.key_seen + share * b.key_seen;
+    mean.sky_seen = rest * a.sky_seen + share * b.sky_seen;
+    mean.veil = rest * a.veil + share * b.veil;
+    mean.through = rest * a.through + share * b.through;
+    return mean;
+}
+
+}  // namespace
+
 PixelRecord Painter::pixel(std::uint32_t x, std::uint32_t y) const {
     const PixelSamples pattern(std::uint64_t{y} * width_ + x);
-    Light sum = Light::Zero();
+    PixelRecord whole;          // mean of the packets, as long as all of them see one and the same thing
+    Light sum = Light::Zero();  // of all rays' colours, for the other case
+    bool one_thing = true;
     for (std::size_t first = 0; first < samples_; first += packet_size) {
         Packet packet = look(x, y, pattern, first);
-        if (packet.one_thing && samples_ <= packet_size) return whole_pixel(packet, pattern);
-        sum += mixed_pixel(packet, pattern, first);
+        if (!packet.one_thing) {
+            one_thing = false;
+            sum += mixed_pixel(packet, pattern, first);
+            continue;
+        }
+        const PixelRecord record = whole_pixel(packet, pattern, first);
+        one_thing &= first == 0 || record.thing == whole.thing;
+        const auto count = static_cast<float>(packet.count);
+        sum += count * record.colour(record.key_seen, record.sky_seen).min(1.0f);
+        whole = first == 0 ? record : mean_of(whole, static_cast<float>(first), record, count);
     }
-    PixelRecord record;
-    record.thing = PixelRecord::mixed;
-    record.veil = sum / static_cast<float>(samples_);
-    record.through = 0.0f;
-    return record;
+    if (one_thing) return whole;
+    PixelRecord mixed;
+    mixed.thing = PixelRecord::mixed;
+    mixed.veil = sum / static_cast<float>(samples_);
+    mixed.through = 0.0f;
+    return mixed;
 }
 
 }  // namespace pelletlab::report::detail

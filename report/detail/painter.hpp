@@ -48,9 +48,9 @@ private:
     void read_surface(const Hit& hit, Sight& seen) const;
     void shade(Sight& seen, const Vec3f& view) const;
     void light_every_ray(Packet& packet, const PixelSamples& pattern, std::size_t first) const;
-    std::size_t light_some_rays(Packet& packet, const PixelSamples& pattern) const;
+    std::size_t light_some_rays(Packet& packet, const PixelSamples& pattern, std::size_t first) const;
     void add_glass(Packet& packet) const;
-    PixelRecord whole_pixel(Packet& packet, const PixelSamples& pattern) const;
+    PixelRecord whole_pixel(Packet& packet, const PixelSamples& pattern, std::size_t first) const;
     Light mixed_pixel(Packet& packet, const PixelSamples& pattern, std::size_t first) const;
 
     const PreparedScene& prepared_;

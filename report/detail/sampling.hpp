@@ -59,4 +59,10 @@ inline Vec3f cone_direction(const Vec3f& n, float tangent, const Point2& sample)
     return (n + radius * std::cos(angle) * s + radius * std::sin(angle) * t).normalized();
 }
 
+/// The direction, mirrored to the outer side of a surface with that true normal: a smooth normal may send rays into its own facet.
+inline Vec3f above(const Vec3f& direction, const Vec3f& true_normal) {
+    const float height = direction.dot(true_normal);
+    return height < 0.0f ? Vec3f(direction - 2.0f * height * true_normal) : direction;
+}
+
 }  // namespace pelletlab::report::detail
