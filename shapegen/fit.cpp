@@ -89,8 +89,13 @@ FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& di
     std::vector<Sphere> spheres = seed_by_gaps(coarse, unit_distance, seeds);
 
     tell("fitting spheres", 0.0, 1.0);
+    Containment containment{&unit_distance, 0.0};
     const auto settle_all = [&](const SampleBlocks& samples, std::uint32_t iterations, double tolerance) {
         GapLoss loss(samples, spheres);
+        // Reaching out by twice the usual gap is what a good fit does at edges.
+        loss.evaluate(pack(spheres), nullptr, nullptr);
+        containment.slack = 2.0 * std::sqrt(loss.gap_part());
+        loss.contain(containment);
         const MinimiserResult settled = settle(loss, {iterations, tolerance, min_radius, 0.05});
         loss.copy_spheres(spheres);
         result.iterations += settled.iterations;
@@ -99,11 +104,12 @@ FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& di
 
     tell("moving spheres to better places", 0.0, 1.0);
     RelocationSettings relocation;
-    relocation.trials = static_cast<std::uint32_t>(settings.effort * std::clamp(2.0 * static_cast<double>(n), 50.0, 400.0));
+    relocation.trials = static_cast<std::uint32_t>(settings.effort * std::clamp(2.0 * static_cast<double>(n), 60.0, 800.0));
     relocation.seed = settings.seed;
     relocation.min_radius = min_radius;
     relocation.largest_radius = seeds.largest_radius;
     relocation.tolerance = seeds.tolerance;
+    relocation.slack = containment.slack;
     const RelocationResult moved = relocate(spheres, coarse, unit_distance, relocation);
     result.iterations += moved.iterations;
     result.relocations = moved.accepted;
@@ -115,7 +121,8 @@ FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& di
     BlockMetric metric;
     VectorXd x = pack(spheres);
     MinimiserSettings polish;
-    polish.iterations = 60;
+    polish.iterations = 40;
+    polish.tolerance = 3e-4;
     const MinimiserResult polished = minimise(
         x, lower_bounds(n, min_radius),
         [&](const VectorXd& at, VectorXd& gradient, bool refresh) {

@@ -82,6 +82,7 @@ GapLoss::GapLoss(const SampleBlocks& samples, std::span<const Sphere> spheres, s
     : samples_(samples), spheres_(spheres.begin(), spheres.end()), free_(std::move(free_spheres)), blocks_(std::move(blocks)), slot_(spheres.size(), -1) {
     for (std::size_t k = 0; k < free_.size(); ++k) slot_[free_[k]] = static_cast<std::int32_t>(k);
     arrays_.resize(spheres_.size());
+    for (std::size_t i = 0; i < spheres_.size(); ++i) to_single(i);
     const std::size_t points = blocks_.size() * SampleBlocks::width;
     gap_.resize(points);
     gap_single_.resize(points);
@@ -102,13 +103,15 @@ void GapLoss::set_spheres(const VectorXd& x) {
     for (std::size_t k = 0; k < free_.size(); ++k) {
         const auto at = static_cast<Eigen::Index>(4 * k);
         spheres_[free_[k]] = {x.segment<3>(at), x[at + 3]};
+        to_single(free_[k]);
     }
-    for (std::size_t i = 0; i < spheres_.size(); ++i) {
-        arrays_.x[i] = static_cast<float>(spheres_[i].centre.x());
-        arrays_.y[i] = static_cast<float>(spheres_[i].centre.y());
-        arrays_.z[i] = static_cast<float>(spheres_[i].centre.z());
-        arrays_.radius[i] = static_cast<float>(spheres_[i].radius);
-    }
+}
+
+void GapLoss::to_single(std::size_t i) {
+    arrays_.x[i] = static_cast<float>(spheres_[i].centre.x());
+    arrays_.y[i] = static_cast<float>(spheres_[i].centre.y());
+    arrays_.z[i] = static_cast<float>(spheres_[i].centre.z());
+    arrays_.radius[i] = static_cast<float>(spheres_[i].radius);
 }
 
 bool GapLoss::candidates_valid() const {
@@ -224,6 +227,29 @@ double GapLoss::evaluate(const VectorXd& x, VectorXd* gradient, BlockMetric* met
         for (auto& block : metric->blocks) block *= 2.0 * weight;
     }
     last_rms_ = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, gap_.size())));
+    gap_part_ = sum * weight;
+    return gap_part_ + (containment_.distance ? add_containment(gradient, metric) : 0.0);
+}
+
+double GapLoss::add_containment(VectorXd* gradient, BlockMetric* metric) {
+    const double weight = 2.0 / static_cast<double>(spheres_.size());
+    double sum = 0.0;
+    if (known_.empty()) known_.resize(free_.size());
+    for (std::size_t s = 0; s < free_.size(); ++s) {
+        const Sphere& sphere = spheres_[free_[s]];
+        // A distance grows by no more than the way gone: most spheres need no new query.
+        const Known& known = known_[s];
+        if (sphere.radius + known.distance + (sphere.centre - known.at).norm() <= containment_.slack) continue;
+        const meshes::DistanceSample at = containment_.distance->sample(sphere.centre);
+        known_[s] = {sphere.centre, at.value};
+        const double excess = sphere.radius + at.value - containment_.slack;
+        if (excess <= 0.0) continue;
+        sum += excess * excess;
+        Eigen::Vector4d row;
+        row << at.gradient, 1.0;
+        if (gradient) gradient->segment<4>(static_cast<Eigen::Index>(4 * s)) += 2.0 * weight * excess * row;
+        if (metric) metric->blocks[s] += 2.0 * weight * row * row.transpose();
+    }
     return sum * weight;
 }
 

@@ -4,10 +4,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "core/rigid_template.hpp"
+#include "meshes/signed_distance.hpp"
 #include "shapegen/detail/nearest_kernel.hpp"
 #include "shapegen/detail/sample_blocks.hpp"
 
@@ -33,6 +35,13 @@ private:
     void apply_first(VectorXd& q, std::size_t terms) const;
 };
 
+/// A sphere reaches out of the body by r + φ_B(c). The gaps do not see that beyond an edge, where no surface point is near; so reaching out by more than
+/// `slack` costs (r + φ_B(c) − slack)² / (number of all spheres) · 2.
+struct Containment {
+    const meshes::SignedDistance* distance = nullptr;  ///< none: spheres may reach out anywhere
+    double slack = 0.0;
+};
+
 /// The loss over all points and spheres, or over some points with some spheres free to move.
 class GapLoss {
 public:
@@ -40,8 +49,12 @@ public:
     /// Only these spheres move and only these blocks count.
     GapLoss(const SampleBlocks& samples, std::span<const Sphere> spheres, std::vector<std::uint32_t> free_spheres, std::vector<std::uint32_t> blocks);
 
+    void contain(const Containment& containment) { containment_ = containment; }
+
     /// x holds the free spheres. Returns Σ φ² / (number of all points); fills gradient, and the metric when wanted.
     double evaluate(const VectorXd& x, VectorXd* gradient, BlockMetric* metric);
+
+    double gap_part() const { return gap_part_; }  ///< of the last evaluation, without the containment
 
     /// Of the last evaluation, one a point of the counted blocks in order.
     const std::vector<double>& gaps() const { return gap_; }
@@ -56,10 +69,19 @@ public:
 
 private:
     void set_spheres(const VectorXd& x);
+    void to_single(std::size_t i);
     void rebuild_candidates();
     bool candidates_valid() const;
+    double add_containment(VectorXd* gradient, BlockMetric* metric);
 
     const SampleBlocks& samples_;
+    struct Known {  // a place where the body's distance was asked for
+        Vec3 at = Vec3::Zero();
+        double distance = std::numeric_limits<double>::infinity();
+    };
+
+    Containment containment_;
+    std::vector<Known> known_;  // one a free sphere
     std::vector<Sphere> spheres_;
     std::vector<Sphere> reference_;  // when the candidates were collected
     SphereArrays arrays_;
@@ -67,7 +89,7 @@ private:
     std::vector<std::int32_t> slot_;  // of each sphere among the free ones, or −1
     std::vector<std::uint32_t> start_, candidate_;
     double margin_ = 0.0;
-    double last_rms_ = 0.0;
+    double last_rms_ = 0.0, gap_part_ = 0.0;
     std::vector<double> gap_;
     std::vector<float> gap_single_;
     std::vector<std::uint32_t> nearest_;

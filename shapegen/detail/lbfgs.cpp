@@ -46,6 +46,7 @@ MinimiserResult minimise(VectorXd& x, const VectorXd& lower, const Objective& ob
     mask(gradient, x, lower);
     std::deque<Pair> pairs;
     int idle = 0;
+    double recent_gain = 0.0;
     for (; result.iterations < settings.iterations; ++result.iterations) {
         throw_if_interrupted();
         VectorXd step = direction(gradient, pairs, precondition);
@@ -91,6 +92,8 @@ MinimiserResult minimise(VectorXd& x, const VectorXd& lower, const Objective& ob
         x = next;
         gradient = next_gradient;
         result.loss = loss;
+        recent_gain = 0.6 * recent_gain + 0.4 * gain;
+        if (result.iterations >= 4 && loss - 4.0 * recent_gain > settings.give_up_above) return result;
         idle = gain < settings.tolerance * loss ? idle + 1 : 0;
         if (idle >= 3) {
             ++result.iterations;

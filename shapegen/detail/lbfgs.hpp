@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <limits>
 
 namespace pelletlab::shapegen::detail {
 
@@ -12,7 +13,8 @@ struct MinimiserSettings {
     double tolerance = 1e-4;     ///< ends when three steps in a row gain less than this fraction of the loss
     double longest_step = 0.05;  ///< of any one unknown
     std::size_t memory = 10;
-    std::uint32_t metric_every = 3;  ///< iterations between two metrics
+    std::uint32_t metric_every = 3;                                  ///< iterations between two metrics
+    double give_up_above = std::numeric_limits<double>::infinity();  ///< ends early when the loss does not look as if it would fall below this
 };
 
 struct MinimiserResult {

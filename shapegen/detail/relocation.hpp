@@ -19,6 +19,7 @@ struct RelocationSettings {
     double min_radius = 0.0;
     double largest_radius = 1.0;  ///< first guess of a medial ball
     double tolerance = 0.0;       ///< how far a new ball may reach out of the body
+    double slack = 0.0;           ///< how far any sphere may reach out for free
 };
 
 struct RelocationResult {

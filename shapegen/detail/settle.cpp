@@ -22,6 +22,7 @@ MinimiserResult settle(GapLoss& loss, const SettleSettings& settings) {
     minimiser.iterations = settings.iterations;
     minimiser.tolerance = settings.tolerance;
     minimiser.longest_step = settings.longest_step;
+    minimiser.give_up_above = settings.give_up_above;
     VectorXd x = loss.free_values();
     const MinimiserResult result = minimise(
         x, lower_bounds(loss.free_spheres().size(), settings.min_radius), objective, [&](VectorXd& q) { metric.apply(q); }, minimiser);

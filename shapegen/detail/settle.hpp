@@ -1,6 +1,8 @@
 // Minimise a GapLoss with its own Gauss–Newton metric.
 #pragma once
 
+#include <limits>
+
 #include "shapegen/detail/gap_loss.hpp"
 #include "shapegen/detail/lbfgs.hpp"
 
@@ -11,6 +13,7 @@ struct SettleSettings {
     double tolerance = 1e-4;
     double min_radius = 0.0;
     double longest_step = 0.05;
+    double give_up_above = std::numeric_limits<double>::infinity();  ///< ends early when the loss will hardly fall below this
 };
 
 /// Moves the free spheres of `loss` to a point of lower loss; they are found in loss.copy_spheres() afterwards.

@@ -18,6 +18,10 @@ double angle_between(const Vec3& a, const Vec3& b) {
     return 2.0 * std::asin(std::min(1.0, 0.5 * (a - b).norm()));
 }
 
+double opening(const Cap& cap) {
+    return std::atan2(cap.sine, cap.cosine);
+}
+
 struct Interval {
     double begin, end;
 };
@@ -42,19 +46,22 @@ bool collect_caps(std::span<const Sphere> spheres, std::uint32_t index, std::spa
         if (cap.cosine <= -1.0) return false;  // this sphere lies inside the other one
         cap.axis = offset / distance;
         cap.sine = std::sqrt((1.0 - cap.cosine) * (1.0 + cap.cosine));
-        cap.opening = std::atan2(cap.sine, cap.cosine);
         all.push_back(cap);
     }
-    std::sort(all.begin(), all.end(), [](const Cap& a, const Cap& b) { return a.opening != b.opening ? a.opening > b.opening : a.neighbour < b.neighbour; });
+    std::sort(all.begin(), all.end(), [](const Cap& a, const Cap& b) { return a.cosine != b.cosine ? a.cosine < b.cosine : a.neighbour < b.neighbour; });
     for (const Cap& cap : all) {
         bool inside_another = false;
         for (const Cap& kept : caps) {
-            const double angle = angle_between(cap.axis, kept.axis);
-            if (angle + cap.opening <= kept.opening + same_circle) {
+            // Both tests first by cosines, which are cheap, and by angles, which are sharp, only where it is close.
+            const double between = cap.axis.dot(kept.axis), both = cap.cosine * kept.cosine, sines = cap.sine * kept.sine;
+            if (between > both + sines - 1e-6 && angle_between(cap.axis, kept.axis) + opening(cap) <= opening(kept) + same_circle) {
                 inside_another = true;
                 break;
             }
-            if ((pi - angle) + (pi - cap.opening) <= kept.opening + same_circle) return false;  // the two of them cover everything
+            if (cap.cosine + kept.cosine < 1e-6 && between < both - sines + 1e-6 &&
+                2.0 * pi - angle_between(cap.axis, kept.axis) - opening(cap) <= opening(kept) + same_circle) {
+                return false;  // the two of them cover everything
+            }
         }
         if (!inside_another) caps.push_back(cap);
     }
@@ -66,9 +73,9 @@ bool add_covered(const ExposedArc& circle, const Cap& cap, const Cap& other, std
     const double a = cap.sine * circle.u.dot(other.axis);
     const double b = cap.sine * circle.v.dot(other.axis);
     const double level = other.cosine - cap.cosine * cap.axis.dot(other.axis);
-    const double amplitude = std::hypot(a, b);
-    if (level >= amplitude) return true;
-    if (level <= -amplitude) return false;
+    const double squared = a * a + b * b;
+    if (level * level >= squared) return level >= 0.0;
+    const double amplitude = std::sqrt(squared);
     const double middle = std::atan2(b, a);
     const double half = std::acos(level / amplitude);
     double begin = middle - half, end = middle + half;

@@ -29,7 +29,7 @@ struct ExposedArc {
 struct Cap {
     std::uint32_t neighbour = 0;
     Vec3 axis = Vec3::UnitZ();
-    double cosine = 1.0, sine = 0.0, opening = 0.0;
+    double cosine = 1.0, sine = 0.0;  ///< of the opening angle
 };
 
 /// What one sphere shows of itself.
