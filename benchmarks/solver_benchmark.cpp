@@ -238,6 +238,10 @@ int run(int argc, char** argv) {
     std::printf("per pellet: %.2f touching pairs, %.2f sphere contacts, %.2f wall contacts; largest overlap / radius %.3f\n",
                 static_cast<double>(contacts.touching_pairs) / n, static_cast<double>(contacts.sphere_contacts) / n,
                 static_cast<double>(contacts.wall_contacts) / n, contacts.largest_overlap_ratio);
+    const auto search = s.search_report();
+    std::printf("per pellet: %.2f listed pairs, %.2f with candidates, %.2f candidates; %.2f near walls, %.2f wall candidates; %.0f bytes\n",
+                static_cast<double>(search.listed_pairs) / n, static_cast<double>(search.pairs_with_candidates) / n, static_cast<double>(search.candidates) / n,
+                static_cast<double>(search.bodies_near_walls) / n, static_cast<double>(search.wall_candidates) / n, static_cast<double>(search.bytes) / n);
     double speed = 0.0;
     for (const Vec3& v : s.bodies().velocity) speed += v.norm() / n;
     std::printf("mean speed %.4f m/s, peak memory %.1f MB\n", speed, memory_megabytes());

@@ -135,7 +135,7 @@ std::vector<char> payload_of(const Simulation::State& s) {
     std::vector<SavedSpring> springs;
     for (std::size_t k = 0; k < s.pairs.records.size(); ++k) {
         const detail::PairRecord& r = s.pairs.records[k];
-        const detail::PairBlock& block = s.pairs.blocks[k / detail::pairs_per_block];
+        const detail::PairBlock& block = s.pairs.blocks[s.pairs.block_of_body[s.pairs.records[k].i]];
         for (std::size_t c = r.first; c < r.first + std::size_t{r.count}; ++c)
             if (block.candidates[c].touching()) springs.push_back({r.i, r.j, block.candidates[c].sphere_a(), block.candidates[c].b, block.springs[c]});
     }
@@ -213,10 +213,11 @@ bool install(Simulation::State& s, const Saved& saved) {
     std::size_t next = 0;
     for (std::size_t k = 0; k < s.pairs.records.size(); ++k) {
         detail::PairRecord& record = s.pairs.records[k];
-        detail::PairBlock& block = s.pairs.blocks[k / detail::pairs_per_block];
+        detail::PairBlock& block = s.pairs.blocks[s.pairs.block_of_body[s.pairs.records[k].i]];
         if (next == saved.springs.size() || saved.springs[next].i != record.i || saved.springs[next].j != record.j) continue;
         detail::refresh_candidates(block, record, s.templates[s.bodies.template_of(record.i)], s.templates[s.bodies.template_of(record.j)],
-                                   detail::relative_pose(s.kinematics[record.i], s.kinematics[record.j]), s.pairs.pair_skin);
+                                   detail::relative_pose(s.kinematics[record.i], s.kinematics[record.j]), s.pairs.pair_skin,
+                                   static_cast<std::uint32_t>(s.steps));
         for (std::size_t c = record.first; c < record.first + std::size_t{record.count} && next < saved.springs.size(); ++c) {
             const SavedSpring& spring = saved.springs[next];
             if (spring.i != record.i || spring.j != record.j || block.candidates[c].key() != ((spring.a << 16) | spring.b)) continue;

@@ -11,6 +11,7 @@ namespace pelletlab::solver::detail {
 
 namespace {
 
+constexpr std::uint32_t pairs_per_block = 96;   ///< about; a block ends with the row of a body
 constexpr std::size_t most_candidates = 65000;  ///< a record counts them in 16 bits
 
 std::size_t padded(std::size_t count) {
@@ -75,6 +76,22 @@ void search(const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& 
     }
 }
 
+/// Consecutive bodies, until their pairs are enough for one piece of work.
+void cut_into_blocks(PairList& list, std::size_t body_count) {
+    list.blocks.clear();
+    list.block_of_body.resize(body_count);
+    for (std::uint32_t i = 0; i < body_count;) {
+        PairBlock block;
+        block.body_begin = i;
+        block.pair_begin = list.rows.first[i];
+        while (i < body_count && list.rows.first[i] - block.pair_begin < pairs_per_block && i - block.body_begin < pairs_per_block)
+            list.block_of_body[i++] = static_cast<std::uint32_t>(list.blocks.size());
+        block.body_end = i;
+        block.pair_end = list.rows.first[i];
+        list.blocks.push_back(std::move(block));
+    }
+}
+
 }  // namespace
 
 RelativePose relative_pose(const Kinematic& i, const Kinematic& j) {
@@ -89,10 +106,18 @@ RelativePose relative_pose(const Kinematic& i, const Kinematic& j) {
     return pose;
 }
 
-void refresh_candidates(PairBlock& block, PairRecord& record, const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& pose, double skin) {
+void refresh_candidates(PairBlock& block, PairRecord& record, const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& pose, double usual_skin,
+                        std::uint32_t step) {
     thread_local Search found;  // scratch
     thread_local std::vector<Spring> springs;
-    search(ti, tj, pose, skin, 6.0 * skin, found);
+    const std::uint32_t lasted = step - record.refreshed;
+    const double old_skin = static_cast<double>(record.skin);
+    double skin = usual_skin;
+    if (old_skin > 0.0)
+        skin = lasted < 12 ? std::min(2.0 * old_skin, 4.0 * usual_skin) : (lasted > 100 ? std::max(0.5 * old_skin, 0.05 * usual_skin) : old_skin);
+    record.skin = static_cast<float>(skin);
+    record.refreshed = step;
+    search(ti, tj, pose, skin, std::max(6.0 * skin, usual_skin), found);
     springs.assign(found.candidates.size(), Spring{0.0, 0.0, 0.0});
     std::size_t old = record.first;
     const std::size_t old_end = record.first + record.count;
@@ -128,33 +153,33 @@ void rebuild_pairs(PairList& list, Bodies& bodies, const std::vector<BodyTemplat
     old.rows = std::move(list.rows);
     old.records = std::move(list.records);
     old.blocks = std::move(list.blocks);
+    old.block_of_body = std::move(list.block_of_body);
     list.rows = find_neighbours(bodies, templates, list.skin);
     const std::size_t n = bodies.size(), pair_count = list.rows.partner.size();
-    const std::size_t grain = pairs_per_block;
-    list.records.assign(pair_count, PairRecord{{0, 0, 0, 1, 0, 0, 0, -1}, 0, 0, 0, 0, 0, 0, 0});
-    list.blocks.assign((pair_count + grain - 1) / grain, {});
-    list.loads_i.resize(pair_count);
+    list.records.assign(pair_count, PairRecord{{0, 0, 0, 1, 0, 0, 0, -1}, 0, 0, 0, 0, 0, 0, 0, 0.0f, 0});
     list.loads_j.resize(pair_count);
     list.touching.assign(pair_count, 0);
-
-    std::vector<std::uint32_t> owner(pair_count);
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::uint32_t k = list.rows.first[i]; k < list.rows.first[i + 1]; ++k) owner[k] = static_cast<std::uint32_t>(i);
-    parallel_blocks(pair_count, grain, [&](std::size_t begin, std::size_t end) {
-        PairBlock& block = list.blocks[begin / grain];
-        for (std::size_t k = begin; k < end; ++k) {
-            PairRecord& record = list.records[k];
-            record.i = owner[k];
-            record.j = list.rows.partner[k];
-            record.template_i = static_cast<std::uint16_t>(bodies.template_of(record.i));
-            record.template_j = static_cast<std::uint16_t>(bodies.template_of(record.j));
-            if (record.i + 1 >= old.rows.first.size()) continue;
-            const auto from = old.rows.partner.begin() + old.rows.first[record.i], to = old.rows.partner.begin() + old.rows.first[record.i + 1];
-            const auto found = std::lower_bound(from, to, record.j);
-            if (found == to || *found != record.j) continue;
-            const auto index = static_cast<std::size_t>(found - old.rows.partner.begin());
-            carry_over(old.blocks[index / grain], old.records[index], block, record);
-        }
+    list.own_loads.resize(n);
+    list.own_touching.assign(n, 0);
+    cut_into_blocks(list, n);
+    parallel_for(list.blocks.size(), 1, [&](std::size_t index) {
+        PairBlock& block = list.blocks[index];
+        for (std::uint32_t i = block.body_begin; i < block.body_end; ++i)
+            for (std::uint32_t k = list.rows.first[i]; k < list.rows.first[i + 1]; ++k) {
+                PairRecord& record = list.records[k];
+                record.i = i;
+                record.j = list.rows.partner[k];
+                if (i + 1 < old.rows.first.size()) {
+                    const auto from = old.rows.partner.begin() + old.rows.first[i], to = old.rows.partner.begin() + old.rows.first[i + 1];
+                    const auto found = std::lower_bound(from, to, record.j);
+                    if (found != to && *found == record.j) {
+                        const auto before = static_cast<std::size_t>(found - old.rows.partner.begin());
+                        carry_over(old.blocks[old.block_of_body[i]], old.records[before], block, record);
+                    }
+                }
+                record.template_i = static_cast<std::uint16_t>(bodies.template_of(record.i));
+                record.template_j = static_cast<std::uint16_t>(bodies.template_of(record.j));
+            }
     });
 
     list.incoming_first.assign(n + 1, 0);

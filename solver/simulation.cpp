@@ -264,6 +264,31 @@ std::uint64_t Simulation::neighbour_rebuilds() const {
     return state_->pairs.rebuilds;
 }
 
+SearchReport Simulation::search_report() const {
+    const State& s = *state_;
+    const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+    SearchReport report;
+    report.listed_pairs = s.pairs.records.size();
+    for (const detail::PairRecord& r : s.pairs.records) {
+        report.candidates += r.count;
+        if (r.count > 0) ++report.pairs_with_candidates;
+    }
+    for (const detail::PairBlock& block : s.pairs.blocks) report.bytes += bytes(block.candidates) + bytes(block.springs);
+    report.bytes += bytes(s.pairs.records) + bytes(s.pairs.own_loads) + bytes(s.pairs.loads_j) + bytes(s.pairs.touching) + bytes(s.pairs.incoming) +
+                    bytes(s.pairs.incoming_first) + bytes(s.pairs.rows.first) + bytes(s.pairs.rows.partner) + bytes(s.kinematics) +
+                    s.bodies.size() * 23 * sizeof(double);
+    for (const detail::Wall& wall : s.walls) {
+        report.bytes += bytes(wall.watches) + bytes(wall.loads) + bytes(wall.touching);
+        for (const detail::WallWatch& watch : wall.watches) {
+            if (!watch.near) continue;
+            ++report.bodies_near_walls;
+            report.wall_candidates += watch.near->candidates.size();
+            report.bytes += sizeof(detail::NearWall) + bytes(watch.near->faces) + bytes(watch.near->candidates) + bytes(watch.near->history);
+        }
+    }
+    return report;
+}
+
 std::vector<StageTime> Simulation::stage_times() const {
     std::vector<StageTime> times;
     for (std::size_t k = 0; k < detail::stage_names.size(); ++k) times.push_back({detail::stage_names[k], state_->stage_seconds[k]});
@@ -275,7 +300,7 @@ std::vector<ContactPoint> Simulation::contact_points() const {
     std::vector<ContactPoint> points;
     for (std::size_t k = 0; k < s.pairs.records.size(); ++k) {
         const detail::PairRecord& r = s.pairs.records[k];
-        const detail::PairBlock& block = s.pairs.blocks[k / detail::pairs_per_block];
+        const detail::PairBlock& block = s.pairs.blocks[s.pairs.block_of_body[s.pairs.records[k].i]];
         const Pose pi{s.bodies.position(r.i), s.bodies.orientation(r.i)}, pj{s.bodies.position(r.j), s.bodies.orientation(r.j)};
         const auto &ti = s.templates[s.bodies.template_of(r.i)], &tj = s.templates[s.bodies.template_of(r.j)];
         for (std::size_t c = r.first; c < r.first + std::size_t{r.count}; ++c) {
@@ -349,7 +374,7 @@ std::uint64_t Simulation::state_hash() const {
     }
     for (std::size_t k = 0; k < s.pairs.records.size(); ++k) {
         const detail::PairRecord& r = s.pairs.records[k];
-        const detail::PairBlock& block = s.pairs.blocks[k / detail::pairs_per_block];
+        const detail::PairBlock& block = s.pairs.blocks[s.pairs.block_of_body[s.pairs.records[k].i]];
         for (std::size_t c = r.first; c < r.first + std::size_t{r.count}; ++c) {
             if (!block.candidates[c].touching()) continue;
             hash.add((std::uint64_t{r.i} << 32) | r.j);

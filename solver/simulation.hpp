@@ -115,6 +115,16 @@ struct EnergyReport {
     double kinetic_translation = 0.0, kinetic_rotation = 0.0, gravity = 0.0;  ///< [J]
 };
 
+/// What the neighbour search holds at present: for tuning and reports.
+struct SearchReport {
+    std::size_t listed_pairs = 0;  ///< body pairs
+    std::size_t pairs_with_candidates = 0;
+    std::size_t candidates = 0;         ///< sphere pairs
+    std::size_t bodies_near_walls = 0;  ///< counted once a wall
+    std::size_t wall_candidates = 0;    ///< sphere–face pairs
+    std::size_t bytes = 0;              ///< memory of bodies, pairs and walls' lists
+};
+
 /// Wall-clock time that a stage of the step has taken since the simulation was made: for reports of where the time goes, not part of any result.
 struct StageTime {
     std::string name;
@@ -149,6 +159,7 @@ public:
     std::vector<ContactPoint> contact_points() const;
     std::vector<WallReport> wall_reports() const;
     std::uint64_t neighbour_rebuilds() const;
+    SearchReport search_report() const;
     std::vector<StageTime> stage_times() const;
     EnergyReport energy() const;
 

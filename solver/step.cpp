@@ -128,8 +128,8 @@ void Simulation::State::gather_forces_and_kick(double kick) {
     std::vector<const std::uint8_t*> wall_flags;
     for (const detail::Wall& wall : walls) wall_rows.push_back(wall.loads.data()), wall_flags.push_back(wall.touching.data());
     const Vec3& g = definition.gravity;
-    const detail::GatherView loads{pairs.incoming_first.data(), pairs.incoming.data(), pairs.rows.first.data(), pairs.loads_i.data(), pairs.loads_j.data(),
-                                   pairs.touching.data(),       walls.size(),          wall_rows.data(),        wall_flags.data(),    {g.x(), g.y(), g.z()}};
+    const detail::GatherView loads{pairs.incoming_first.data(), pairs.incoming.data(), pairs.loads_j.data(), pairs.own_loads.data(), pairs.touching.data(),
+                                   pairs.own_touching.data(),   walls.size(),          wall_rows.data(),     wall_flags.data(),      {g.x(), g.y(), g.z()}};
     const detail::BodyArrays arrays = bodies.arrays(constants.data(), kinematics.data());
     parallel_blocks(bodies.size(), body_grain,
                     [&](std::size_t begin, std::size_t end) { kernels->gather(arrays, loads, begin, detail::padded_count(end), kick); });

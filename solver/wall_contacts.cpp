@@ -44,11 +44,19 @@ Quat quat(const double a[4]) {
     return {a[0], a[1], a[2], a[3]};
 }
 
-/// Looks up the faces near the bounding sphere.
+/// Looks up the faces near the bounding sphere. Looks further than is needed now: a body far from the wall is then left alone for longer.
 void watch_anew(const Wall& wall, WallWatch& watch, const RelativePose& pose, double bounding_radius, double skin, std::vector<std::uint32_t>& faces) {
-    wall.query.faces_near(wall.mesh, vec(pose.p), bounding_radius + skin, faces);
+    const Vec3 centre = vec(pose.p);
+    wall.query.faces_near(wall.mesh, centre, bounding_radius + 4.0 * skin, faces);
+    double nearest = bounding_radius + 4.0 * skin;
+    const auto too_far = [&](std::uint32_t f) {
+        const double distance = std::sqrt(closest_point(wall.mesh, f, centre).distance2);
+        nearest = std::min(nearest, distance);
+        return distance > bounding_radius + skin;
+    };
+    faces.erase(std::remove_if(faces.begin(), faces.end(), too_far), faces.end());
     for (int k = 0; k < 3; ++k) watch.place[k] = pose.p[k];
-    watch.allowance = skin * 0.999999;
+    watch.allowance = 0.999999 * (faces.empty() ? nearest - bounding_radius : skin);
     if (faces.empty()) {
         watch.near.reset();
         return;
@@ -59,11 +67,19 @@ void watch_anew(const Wall& wall, WallWatch& watch, const RelativePose& pose, do
 }
 
 /// Finds the sphere–face candidates anew.
-void refresh(const Wall& wall, NearWall& near, const RelativePose& pose, const BodyTemplate& t, const WallSkins& skins) {
+void refresh(const Wall& wall, NearWall& near, const RelativePose& pose, const BodyTemplate& t, double usual_skin, std::uint32_t step) {
+    const std::uint32_t lasted = step - near.refreshed;
+    if (near.skin > 0.0) {
+        if (lasted < 12) near.skin = std::min(2.0 * near.skin, 4.0 * usual_skin);
+        if (lasted > 100) near.skin = std::max(0.5 * near.skin, 0.05 * usual_skin);
+    } else {
+        near.skin = usual_skin;
+    }
+    near.refreshed = step;
     const Mat3 r = rotation_of(pose);
     const Vec3 p = vec(pose.p);
     near.candidates.clear();
-    double nearest_other = 8.0 * skins.candidates;
+    double nearest_other = std::max(8.0 * near.skin, usual_skin);
     for (std::size_t a = 0; a < t.balls.size(); ++a) {
         const auto& ball = t.balls[a];
         const Vec3 c = r * Vec3(ball.x, ball.y, ball.z) + p;
@@ -72,7 +88,7 @@ void refresh(const Wall& wall, NearWall& near, const RelativePose& pose, const B
             const double height = std::abs(wall.mesh.normals[f].dot(c - wall.mesh.corner(f, 0)));
             if (height - ball.r >= nearest_other) continue;
             const double gap = std::sqrt(closest_point(wall.mesh, f, c).distance2) - ball.r;
-            if (gap < skins.candidates) {
+            if (gap < near.skin) {
                 near.candidates.push_back({static_cast<std::uint32_t>(a), f});
             } else {
                 nearest_other = std::min(nearest_other, gap);
@@ -118,6 +134,23 @@ Vec3 inherited_spring(const std::vector<WallHistory>& history, std::vector<std::
     return Vec3::Zero();
 }
 
+void add_contact(const Wall& wall, const NearWall& near, std::uint32_t sphere, const Ball& ball, const Vec3& c, const Hit& hit, Scratch& s) {
+    const double distance = std::sqrt(hit.distance2);
+    const Vec3 normal = distance > 0.0 ? Vec3((c - hit.point) / distance) : wall.mesh.normals[hit.face];
+    const std::uint32_t patch = wall.mesh.patch[hit.face];
+    const Vec3 spring = inherited_spring(near.history, s.used, sphere, patch, normal);
+    s.storage.reserve(s.storage.batch.size + 1);
+    ContactBatch& b = s.storage.batch;
+    const std::size_t n = b.size++;
+    const Vec3 d = normal * std::max(distance, 1e-200);
+    b.dx[n] = d.x(), b.dy[n] = d.y(), b.dz[n] = d.z();
+    b.ax[n] = hit.point.x(), b.ay[n] = hit.point.y(), b.az[n] = hit.point.z();
+    b.ra[n] = 0.0, b.rb[n] = ball.r;
+    b.sx[n] = spring.x(), b.sy[n] = spring.y(), b.sz[n] = spring.z();
+    b.slot[n] = static_cast<std::uint32_t>(s.slots.size());
+    s.fresh.push_back({sphere, patch, normal, spring});
+}
+
 /// Puts the contacts of one body into the batch. True when there are any.
 bool collect(const Wall& wall, const NearWall& near, const RelativePose& pose, const BodyTemplate& t, Scratch& s) {
     const Mat3 r = rotation_of(pose);
@@ -126,37 +159,27 @@ bool collect(const Wall& wall, const NearWall& near, const RelativePose& pose, c
     s.used.assign(near.history.size(), 0);
     for (std::size_t k = 0; k < near.candidates.size();) {
         const std::uint32_t sphere = near.candidates[k].sphere;
-        const auto& ball = t.balls[sphere];
+        const Ball& ball = t.balls[sphere];
         const Vec3 c = r * Vec3(ball.x, ball.y, ball.z) + p;
         s.hits.clear();
         for (; k < near.candidates.size() && near.candidates[k].sphere == sphere; ++k) {
-            const Hit hit = closest_point(wall.mesh, near.candidates[k].face, c);
+            const std::uint32_t face = near.candidates[k].face;
+            const double height = wall.mesh.normals[face].dot(c - wall.mesh.corner(face, 0));
+            if (height * height >= ball.r * ball.r * (1.0 + 1e-12)) continue;  // the distance is not smaller than the height over the face's plane
+            const Hit hit = closest_point(wall.mesh, face, c);
             if (hit.distance2 < ball.r * ball.r) s.hits.push_back(hit);
         }
-        if (s.hits.empty()) continue;
-        keep_contacts(wall.mesh, c, s.hits);
-        for (const Hit& hit : s.hits) {
-            const double distance = std::sqrt(hit.distance2);
-            const Vec3 normal = distance > 0.0 ? Vec3((c - hit.point) / distance) : wall.mesh.normals[hit.face];
-            const std::uint32_t patch = wall.mesh.patch[hit.face];
-            const Vec3 spring = inherited_spring(near.history, s.used, sphere, patch, normal);
-            s.storage.reserve(s.storage.batch.size + 1);
-            ContactBatch& b = s.storage.batch;
-            const std::size_t n = b.size++;
-            const Vec3 d = normal * std::max(distance, 1e-200);
-            b.dx[n] = d.x(), b.dy[n] = d.y(), b.dz[n] = d.z();
-            b.ax[n] = hit.point.x(), b.ay[n] = hit.point.y(), b.az[n] = hit.point.z();
-            b.ra[n] = 0.0, b.rb[n] = ball.r;
-            b.sx[n] = spring.x(), b.sy[n] = spring.y(), b.sz[n] = spring.z();
-            b.slot[n] = static_cast<std::uint32_t>(s.slots.size());
-            s.fresh.push_back({sphere, patch, normal, spring});
+        if (s.hits.size() == 1) {
+            if (is_local_minimum(wall.mesh, s.hits[0], c)) add_contact(wall, near, sphere, ball, c, s.hits[0], s);
+        } else if (!s.hits.empty()) {
+            keep_contacts(wall.mesh, c, s.hits);
+            for (const Hit& hit : s.hits) add_contact(wall, near, sphere, ball, c, hit, s);
         }
     }
     return s.storage.batch.size > before;
 }
 
-PairSlot slot_of(const Kinematic& wall, const Kinematic& body, const RelativePose& pose, std::size_t contacts) {
-    const Mat3 to_wall = quat(wall.turn()).toRotationMatrix().transpose();
+PairSlot slot_of(const Mat3& to_wall, const Kinematic& wall, const Kinematic& body, const RelativePose& pose, std::size_t contacts) {
     const Vec3 v = to_wall * (vec(body.velocity()) - vec(wall.velocity())), spin = to_wall * (vec(body.spin()) - vec(wall.spin())),
                body_spin = to_wall * vec(body.spin());
     const Vec3 at_origin = v - body_spin.cross(vec(pose.p));
@@ -165,6 +188,17 @@ PairSlot slot_of(const Kinematic& wall, const Kinematic& body, const RelativePos
     slot.row[6] = 1.0 / body.motion[6];
     slot.row[7] = rolling_share / (body.motion[7] * static_cast<double>(contacts));
     return slot;
+}
+
+/// True when the body has moved so far in the frame of the wall that the faces near it must be looked up again.
+bool moved_away(const WallWatch& watch, const Matrix3& frame, const Kinematic& wall, const Kinematic& body) {
+    const double d[3] = {body.place[0] - wall.place[0], body.place[1] - wall.place[1], body.place[2] - wall.place[2]};
+    double moved = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double shift = frame.m[0][k] * d[0] + frame.m[1][k] * d[1] + frame.m[2][k] * d[2] - watch.place[k];
+        moved += shift * shift;
+    }
+    return !(watch.allowance >= 0.0 && moved <= watch.allowance * watch.allowance);
 }
 
 }  // namespace
@@ -202,31 +236,34 @@ void wall_contact_forces(Wall& wall, std::size_t begin, std::size_t end, const s
     s.slots.clear();
     s.active.clear();
     s.fresh.clear();
+    const double* q = wall.record.turn();
+    const Matrix3 frame = matrix_of(q[0], q[1], q[2], q[3]);
+    const Mat3 to_world = quat(q).toRotationMatrix(), to_wall = to_world.transpose();
     for (std::size_t i = begin; i < end; ++i) {
         wall.touching[i] = 0;
         WallWatch& watch = wall.watches[i];
         const BodyTemplate& t = templates[bodies.template_of(i)];
+        const bool moved = moved_away(watch, frame, wall.record, kinematics[i]);
+        if (!moved && !watch.near) continue;
         const RelativePose pose = relative_pose(wall.record, kinematics[i]);
-        double moved = 0.0;
-        for (int k = 0; k < 3; ++k) moved += (pose.p[k] - watch.place[k]) * (pose.p[k] - watch.place[k]);
-        if (!(watch.allowance >= 0.0 && moved <= watch.allowance * watch.allowance)) watch_anew(wall, watch, pose, t.bounding_radius, skins.faces, s.faces);
+        if (moved) watch_anew(wall, watch, pose, t.bounding_radius, skins.faces, s.faces);
         if (!watch.near) continue;
         NearWall& near = *watch.near;
-        if (stale(near, pose, t.largest_offset)) refresh(wall, near, pose, t, skins);
+        const bool too_generous = !near.candidates.empty() && clock.index - near.refreshed > 256 && near.skin > 0.1 * skins.candidates;
+        if (too_generous || stale(near, pose, t.largest_offset)) refresh(wall, near, pose, t, skins.candidates, clock.index);
         const auto first = static_cast<std::uint32_t>(s.storage.batch.size);
         if (near.candidates.empty() || !collect(wall, near, pose, t, s)) {
             near.history.clear();
             continue;
         }
         const auto contact_end = static_cast<std::uint32_t>(s.storage.batch.size);
-        s.slots.push_back(slot_of(wall.record, kinematics[i], pose, contact_end - first));
+        s.slots.push_back(slot_of(to_wall, wall.record, kinematics[i], pose, contact_end - first));
         s.active.push_back({static_cast<std::uint32_t>(i), first, contact_end, vec(pose.p)});
     }
 
     ContactBatch& batch = s.storage.batch;
     kernels.contact_forces(wall.law, batch, s.slots.data(), clock);
 
-    const Mat3 to_world = quat(wall.record.turn()).toRotationMatrix();
     for (const Active& active : s.active) {
         Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
         for (std::uint32_t c = active.first_contact; c < active.contact_end; ++c) {

@@ -52,4 +52,37 @@ private:
     }
 };
 
+/// Owner of the arrays of a PairScratch.
+class PairScratchStorage {
+public:
+    PairScratch scratch{};
+
+    void reserve(std::size_t pairs) {
+        if (scratch.stale && pairs <= capacity_) return;
+        capacity_ = pairs;
+        const std::size_t stride = pairs + widest + 1;
+        numbers_.resize(12 * stride);
+        indices_.resize(2 * stride);
+        stale_.resize(stride);
+        slots_.resize(stride);
+        rows_.resize(2 * stride);
+        for (std::size_t k = 0; k < 3; ++k) scratch.p[k] = numbers_.data() + k * stride;
+        for (std::size_t k = 0; k < 9; ++k) scratch.r[k] = numbers_.data() + (3 + k) * stride;
+        scratch.stale = stale_.data();
+        scratch.active = indices_.data();
+        scratch.first_contact = indices_.data() + stride;
+        scratch.slots = slots_.data();
+        scratch.sums = rows_.data();
+        scratch.loads_i = rows_.data() + stride;
+    }
+
+private:
+    std::size_t capacity_ = 0;
+    std::vector<double> numbers_;
+    std::vector<std::uint32_t> indices_;
+    std::vector<std::uint8_t> stale_;
+    std::vector<PairSlot> slots_;
+    std::vector<LoadRow> rows_;
+};
+
 }  // namespace pelletlab::solver::detail

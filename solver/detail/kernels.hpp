@@ -36,6 +36,8 @@ struct alignas(64) PairRecord {
     std::uint32_t first;  ///< candidate in the pool of its block
     std::uint16_t count, capacity;
     std::uint16_t template_i, template_j;
+    float skin;               ///< [m], of the candidate list, adapted to how long lists last
+    std::uint32_t refreshed;  ///< step (modulo 2³²) at which the candidates were found
 };
 
 /// Sphere a of body i and sphere b of body j; the top bit of a says that they touched in the last step and have a spring.
@@ -77,6 +79,7 @@ struct LawRow {
 struct StepClock {
     double spring_step = 0.0;  ///< [s], over which tangential springs grow; 0 when forces are only looked at
     double step = 0.0;         ///< [s]
+    std::uint32_t index = 0;   ///< step count (modulo 2³²)
 };
 
 /// Motion of a touching pair (i, j) in the frame of i; i may be a wall.
@@ -98,34 +101,36 @@ struct ContactBatch {
     LoadRow* result;       ///< out: force on j, torque on j about the origin of frame i; row[6] is the normal force
 };
 
-inline constexpr std::size_t pairs_per_block = 128;
 inline constexpr std::size_t widest = 8;  ///< lanes of the widest register
 
 /// Rolling friction of one contact may stop at most this share of a body's spin in a step (a body has rarely more than eight neighbours).
 inline constexpr double rolling_share = 1.0 / 8.0;
 
-/// Scratch of one worker for one block of pairs.
+/// Scratch of one worker for one block of pairs; every array has room for a full register behind the last pair.
 struct PairScratch {
-    double p[3][pairs_per_block + widest];  ///< place of j in the frame of i
-    double r[9][pairs_per_block + widest];  ///< its rotation matrix, by rows
-    std::uint8_t stale[pairs_per_block + widest];
+    double* p[3];  ///< place of j in the frame of i
+    double* r[9];  ///< its rotation matrix, by rows
+    std::uint8_t* stale;
     std::uint32_t active_count;
-    std::uint32_t active[pairs_per_block + widest];  ///< touching pairs, counted from the block's first
-    std::uint32_t first_contact[pairs_per_block + widest + 1];
-    PairSlot slots[pairs_per_block + widest];
-    LoadRow sums[pairs_per_block + widest];
+    std::uint32_t* active;         ///< touching pairs, counted from the block's first
+    std::uint32_t* first_contact;  ///< of each touching pair; one more at the end
+    PairSlot* slots;
+    LoadRow *sums, *loads_i;
 };
 
-/// One block of pairs as the force kernel sees it.
+/// One block of pairs as the force kernel sees it: all pairs whose first body is in [body_begin, body_end).
 struct PairBlockView {
     const PairRecord* records;
     std::size_t count;
+    std::size_t body_begin, body_end;
     const Kinematic* kinematics;
     const Ball* const* balls;  ///< per template
     Candidate* candidates;
     Spring* springs;
-    LoadRow *loads_i, *loads_j;  ///< out, world, about the bodies' own centres; only where touching
-    std::uint8_t* touching;      ///< out
+    LoadRow* loads_j;            ///< out, per pair: what the second body feels, world, about its centre; only where touching
+    std::uint8_t* touching;      ///< out, per pair
+    LoadRow* own_loads;          ///< out, per body: what it feels from the pairs in which it is the first; only where own_touching
+    std::uint8_t* own_touching;  ///< out, per body
 };
 
 /// What motion needs of a template; see motion.hpp.
@@ -157,9 +162,9 @@ struct DriftResult {
 
 /// All loads that bodies collect.
 struct GatherView {
-    const std::uint32_t *incoming_first, *incoming, *outgoing_first;
-    const LoadRow *loads_i, *loads_j;
-    const std::uint8_t* touching;
+    const std::uint32_t *incoming_first, *incoming;  ///< per body: the pairs in which it is the second
+    const LoadRow *loads_j, *own_loads;
+    const std::uint8_t *touching, *own_touching;
     std::size_t wall_count;
     const LoadRow* const* wall_loads;
     const std::uint8_t* const* wall_touching;

@@ -153,15 +153,13 @@ void gather(const BodyArrays& b, const GatherView& g, std::size_t begin, std::si
             double sum[8] = {0, 0, 0, 0, 0, 0, 0, 0};
             const std::size_t i = k + lane;
             if (i < b.count) {
-                // Always in this order: pairs in which the body comes second, pairs in which it comes first, walls.
+                // Always in this order: pairs in which the body comes first, pairs in which it comes second, walls.
+                if (g.own_touching[i])
+                    for (int c = 0; c < 8; ++c) sum[c] = g.own_loads[i].row[c];
                 for (std::uint32_t n = g.incoming_first[i]; n < g.incoming_first[i + 1]; ++n) {
                     const std::uint32_t pair = g.incoming[n];
                     if (!g.touching[pair]) continue;
                     for (int c = 0; c < 8; ++c) sum[c] += g.loads_j[pair].row[c];
-                }
-                for (std::uint32_t pair = g.outgoing_first[i]; pair < g.outgoing_first[i + 1]; ++pair) {
-                    if (!g.touching[pair]) continue;
-                    for (int c = 0; c < 8; ++c) sum[c] += g.loads_i[pair].row[c];
                 }
                 for (std::size_t w = 0; w < g.wall_count; ++w) {
                     if (!g.wall_touching[w][i]) continue;

@@ -172,7 +172,7 @@ inline void write_loads(const PairBlockView& block, PairScratch& s, const Contac
             const std::uint32_t pair = s.active[a];
             first[lane] = block.kinematics + block.records[pair].i;
             rows[lane] = s.sums[a].row;
-            targets_i[lane] = block.loads_i[pair].row;
+            targets_i[lane] = s.loads_i[k + lane].row;
             targets_j[lane] = block.loads_j[pair].row;
             for (int c = 0; c < 3; ++c) place[c][lane] = s.p[c][pair];
         }
@@ -188,6 +188,16 @@ inline void write_loads(const PairBlockView& block, PairScratch& s, const Contac
         L::store_rows(targets_i, on_i);
         L::store_rows(targets_j, on_j);
     }
+    for (std::size_t a = 0; a < s.active_count; ++a) {  // pairs are sorted by their first body
+        const std::uint32_t i = block.records[s.active[a]].i;
+        double* own = block.own_loads[i].row;
+        if (block.own_touching[i]) {
+            for (int k = 0; k < 8; ++k) own[k] += s.loads_i[a].row[k];
+        } else {
+            for (int k = 0; k < 8; ++k) own[k] = s.loads_i[a].row[k];
+            block.own_touching[i] = 1;
+        }
+    }
 }
 
 template <class L, class S, class Law, class Rolling>
@@ -196,6 +206,7 @@ void pair_forces(const LawRow& law, const PairBlockView& block, PairScratch& s, 
     b.size = 0;
     s.active_count = 0;
     s.first_contact[0] = 0;
+    for (std::size_t i = block.body_begin; i < block.body_end; ++i) block.own_touching[i] = 0;
     for (std::size_t k = 0; k < block.count; ++k) {
         block.touching[k] = 0;
         if (block.records[k].count == 0) continue;

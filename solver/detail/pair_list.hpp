@@ -2,7 +2,8 @@
 //
 // A pair remembers the relative pose at which its candidates were found, and an allowance: sphere pairs that are not listed were at least that far apart,
 // so the list holds until |Δp| + 2 ρ |Δq| (in the frame of i; p, q the pose of j in it, ρ the largest offset of a sphere of j) exceeds it.
-// The result of a step depends on neither list: candidates are a superset of the contacts, in a fixed order.
+// The result of a step depends on neither list: candidates are a superset of the contacts, in a fixed order. So the skin of each pair may follow
+// how long its lists last: short lists where nothing moves, long-lived ones where much does.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,11 @@
 
 namespace pelletlab::solver::detail {
 
-/// Pairs that are worked on together; their candidates lie together, each pair's padded to a multiple of `candidate_padding`.
+/// Pairs that are worked on together: those of bodies [body_begin, body_end). Their candidates lie together, each pair's padded to a multiple of
+/// `candidate_padding`.
 struct PairBlock {
+    std::uint32_t body_begin = 0, body_end = 0;
+    std::uint32_t pair_begin = 0, pair_end = 0;
     static constexpr std::size_t candidate_padding = 4;
     std::vector<Candidate> candidates;
     std::vector<Spring> springs;
@@ -22,14 +26,17 @@ struct PairBlock {
 
 struct PairList {
     NeighbourRows rows;
-    std::vector<PairRecord> records;        ///< sorted by (i, j)
-    std::vector<PairBlock> blocks;          ///< block k holds records [k, k + 1) · pairs_per_block
-    std::vector<LoadRow> loads_i, loads_j;  ///< what the pair exerts on its two bodies, world; valid where touching
+    std::vector<PairRecord> records;  ///< sorted by (i, j)
+    std::vector<PairBlock> blocks;    ///< in the order of bodies and pairs
+    std::vector<std::uint32_t> block_of_body;
+    std::vector<LoadRow> loads_j;  ///< per pair: what the second body feels, world; valid where touching
     std::vector<std::uint8_t> touching;
+    std::vector<LoadRow> own_loads;  ///< per body: what it feels from the pairs in which it is the first; valid where own_touching
+    std::vector<std::uint8_t> own_touching;
     std::vector<std::uint32_t> incoming_first, incoming;  ///< for body j: the records in which it is the second one
     std::size_t body_count = 0;                           ///< at the last rebuild
     double skin = 0.0;                                    ///< [m], of the body list
-    double pair_skin = 0.0;                               ///< [m], of candidate lists
+    double pair_skin = 0.0;                               ///< [m], usual one of candidate lists
     std::uint64_t rebuilds = 0;
 };
 
@@ -45,6 +52,12 @@ struct RelativePose {
 RelativePose relative_pose(const Kinematic& i, const Kinematic& j);
 
 /// Finds the candidates of record k anew for this relative pose; history is carried over by (sphere a, sphere b).
-void refresh_candidates(PairBlock& block, PairRecord& record, const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& pose, double skin);
+void refresh_candidates(PairBlock& block, PairRecord& record, const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& pose, double usual_skin,
+                        std::uint32_t step);
+
+/// True when the list has lasted so long that a smaller skin would do.
+inline bool too_generous(const PairRecord& record, double usual_skin, std::uint32_t step) {
+    return record.count > 0 && step - record.refreshed > 256 && static_cast<double>(record.skin) > 0.1 * usual_skin;
+}
 
 }  // namespace pelletlab::solver::detail

@@ -32,6 +32,8 @@ struct NearWall {
     std::vector<WallHistory> history;       ///< sorted by (sphere, depth)
     RelativePose reference{{0, 0, 0}, {1, 0, 0, 0}};
     double allowance = -1.0;  ///< [m], as in pair_list.hpp
+    double skin = 0.0;        ///< [m], of the candidates, adapted to how long they last
+    std::uint32_t refreshed = 0;
 };
 
 /// Where a body is against a wall.
