@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -97,6 +98,30 @@ TEST_F(ReadMesh, ObjWithPolygonsIsCutIntoTriangles) {
     EXPECT_NEAR(check(mesh).volume, 1e-6, 1e-18);
 }
 
+TEST_F(ReadMesh, ObjIndicesCountFromBothEndsAndLinesGoOn) {
+    const std::string text =
+        "mtllib none.mtl\no part\nv 0 0 0 1.0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvt 0 0\nusemtl steel\ns 1\nf 1/1/1 \\\n 2/1/1 3//1 # a remark\n"
+        "v 0 0 1\nf -1 -2 -4\nl 1 2\np 1\n";
+    const TriangleMesh mesh = read_mesh(file("a.obj", text), "m");
+    ASSERT_EQ(mesh.faces.size(), 2U);
+    EXPECT_EQ(mesh.corner(1, 0), Vec3(0, 0, 1));
+    EXPECT_EQ(mesh.corner(1, 1), Vec3(0, 1, 0));
+    EXPECT_EQ(mesh.corner(1, 2), Vec3(0, 0, 0));
+}
+
+TEST_F(ReadMesh, ConcavePolygonKeepsItsShape) {
+    // An L of six corners: a fan about its first corner would leave it.
+    const TriangleMesh mesh = read_mesh(file("l.obj", "v 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nv 2 0 0\nf 1 2 3 4 5 6\n"), "m");
+    ASSERT_EQ(mesh.faces.size(), 4U);
+    double area = 0.0;
+    for (std::size_t f = 0; f < 4; ++f) {
+        const Vec3 normal = (mesh.corner(f, 1) - mesh.corner(f, 0)).cross(mesh.corner(f, 2) - mesh.corner(f, 0));
+        EXPECT_GE(normal.z(), 0.0);
+        area += 0.5 * normal.z();
+    }
+    EXPECT_NEAR(area, 3.0, 1e-12);
+}
+
 TEST_F(ReadMesh, PlyAsciiAndBinary) {
     const TriangleMesh made = make_sphere(2e-3, 1);
     std::ostringstream header, body, binary;
@@ -115,6 +140,15 @@ TEST_F(ReadMesh, PlyAsciiAndBinary) {
         binary.write(reinterpret_cast<const char*>(t.data()), 12);
     }
     expect_same(read_mesh(file("a.ply", "ply\nformat ascii 1.0\n" + header.str() + body.str()), "mm"), made);
+    std::string swapped;  // every number of four bytes the other way round
+    for (std::size_t at = 0; at < binary.str().size();) {
+        const bool is_length = at >= 12 * made.vertices.size() && (at - 12 * made.vertices.size()) % 13 == 0;
+        std::string number = binary.str().substr(at, is_length ? 1 : 4);
+        std::reverse(number.begin(), number.end());
+        swapped += number;
+        at += number.size();
+    }
+    expect_same(read_mesh(file("c.ply", "ply\nformat binary_big_endian 1.0\n" + header.str() + swapped), "mm"), made);
     expect_same(read_mesh(file("b.ply", "ply\nformat binary_little_endian 1.0\n" + header.str() + binary.str()), "mm"), made);
 }
 
@@ -149,11 +183,24 @@ TEST_F(ReadMesh, DamagedFilesDropNothingSilently) {
     EXPECT_TRUE(mentions(refusal("long.stl", binary + "more"), "12 triangles"));
     const std::string cut = refusal("cut.stl", ascii.substr(0, ascii.size() / 2));
     EXPECT_TRUE(mentions(cut, "cut short")) << cut;
+    const std::string damaged = "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\nendsolid x\n";
+    EXPECT_TRUE(mentions(refusal("two.stl", damaged), "two.stl:7")) << refusal("two.stl", damaged);
+    EXPECT_TRUE(mentions(refusal("odd.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 zero 0\n"), "odd.stl:4"));
     EXPECT_TRUE(mentions(refusal("none.stl", "solid nothing\nendsolid nothing\n"), "no triangles"));
     EXPECT_TRUE(mentions(refusal("a.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999\nend_header\n"), "99999999999"));
     EXPECT_TRUE(mentions(refusal("b.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"), "end_header"));
-    refusal("bad_index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
-    refusal("two_corners.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\n");
+    EXPECT_TRUE(mentions(refusal("bad_index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), "bad_index.obj:4"));
+    EXPECT_TRUE(mentions(refusal("two_corners.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\n"), "two_corners.obj:5"));
+    EXPECT_TRUE(mentions(refusal("zero.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n"), "«0» names no vertex"));
+    refusal("words.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1endfacet/1/1 2/1/1 3//1 -1\n");  // made the library behind write out of bounds
+    const std::string vertices = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+    const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+    EXPECT_TRUE(mentions(refusal("c.ply", "ply\nformat ascii 1.0\n" + vertices + faces + "3 0 1 7\n"), "vertex 7"));
+    EXPECT_TRUE(mentions(refusal("d.ply", "ply\nformat ascii 1.0\n" + vertices + faces + "3 0 1\n"), "cut short"));
+    EXPECT_TRUE(mentions(refusal("e.ply", "ply\nformat ascii 1.0\n" + vertices + faces + "2 0 1\n"), "fewer than three corners"));
+    EXPECT_TRUE(mentions(refusal("f.ply", "ply\nformat ascii 1.0\n" + vertices + faces + "3 0 1 -2\n"), "f.ply:13"));
+    EXPECT_TRUE(mentions(refusal("g.ply", "ply\nformat binary_little_endian 1.0\n" + vertices + faces), "g.ply"));
+    EXPECT_EQ(read_mesh(file("h.ply", "ply\nformat ascii 1.0\ncomment made by hand\n" + vertices + faces + "3 0 1 2\n"), "mm").faces.size(), 1U);
 }
 
 TEST_F(ReadMesh, NumbersThatAreNotFiniteAreRefusedWithTheirLine) {
