@@ -4,12 +4,15 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <span>
 
 #include "core/error.hpp"
 #include "meshes/makers.hpp"
 #include "meshes/read_mesh.hpp"
 #include "observables/drum.hpp"
+#include "observables/statistics.hpp"
 #include "packing/insertion.hpp"
+#include "packing/run_figures.hpp"
 #include "packing/stage.hpp"
 
 namespace pelletlab::experiments {
@@ -17,8 +20,10 @@ namespace pelletlab::experiments {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double elbow_room = 1.2;  // sites of the closest lattice a pellet: with less the cloud stays a crystal
-constexpr double sparse = 10.0;     // frames before the measurement are stored at this many times frame_interval
+constexpr double elbow_room = 1.2;        // sites of the closest lattice a pellet: with less the cloud stays a crystal
+constexpr double watch_interval = 0.001;  // [s] between looks at torque and overlaps
+constexpr std::size_t torque_groups = 20;
+constexpr double sparse = 10.0;  // frames before the measurement are stored at this many times frame_interval
 
 /// Area of the part of a circle below z = level [m²].
 double segment_area(double radius, double level) {
@@ -70,6 +75,25 @@ void start_rotation(solver::Simulation& simulation, const DrumRig& drum) {
             simulation.set_wall_motion(wall, {Vec3::Zero(), Vec3::UnitY(), drum.speed, Vec3::Zero()});
 }
 
+/// Torque about the axis that keeps the drum turning, against what the pellets exert on the turning walls; positive in the sense of rotation [N m].
+double drive_torque(const solver::Simulation& simulation, const DrumRig& drum) {
+    double torque = 0.0;
+    for (std::size_t wall = 0; wall < simulation.definition().walls.size(); ++wall)
+        if (drum.end_plates_rotate || simulation.definition().walls[wall].name == "shell") torque -= simulation.wall_loads()[wall].torque.y();
+    return drum.speed < 0.0 ? -torque : torque;
+}
+
+/// Mean of the samples, with the error from the means of 20 stretches of time.
+Observable mean_torque(const std::vector<double>& samples, const TimeWindow& window) {
+    std::vector<double> stretches;
+    for (std::size_t g = 0; g < torque_groups; ++g) {
+        const std::size_t begin = g * samples.size() / torque_groups, end = (g + 1) * samples.size() / torque_groups;
+        stretches.push_back(observables::mean_of(std::span(samples).subspan(begin, end - begin)));
+    }
+    constexpr double milli = 1e-3;
+    return {"drum_torque", "mN*m", observables::mean_of(samples) / milli, observables::standard_error(stretches) / milli, window, "drum.torque"};
+}
+
 }  // namespace
 
 std::uint32_t pellet_count(const DrumRig& drum, double pellet_volume) {
@@ -102,12 +126,19 @@ packing::RunResult run_drum(const Case& c, const packing::RunInputs& inputs, con
     spin_up.name = "spinning up";
     spin_up.duration = c.time.spin_up;
     spin_up.frame_interval = sparse_interval;
+    spin_up.watch_interval = watch_interval;
     packing::run_stage(simulation, spin_up, stored, progress, meter);
 
     packing::Stage measure;
     measure.name = "measuring";
     measure.duration = c.time.measure;
     measure.frame_interval = c.output.frame_interval;
+    measure.watch_interval = watch_interval;
+    std::vector<double> torques;
+    measure.watch = [&](const solver::Simulation& now) {
+        torques.push_back(drive_torque(now, c.drum));
+        return false;
+    };
     const TimeWindow window{simulation.time(), simulation.time() + c.time.measure};
     const packing::FrameSink kept = [&](const Frame& frame) {
         if (stored) stored(frame);
@@ -117,6 +148,8 @@ packing::RunResult run_drum(const Case& c, const packing::RunInputs& inputs, con
 
     packing::RunResult result;
     result.observables = observables::measure_drum(measured, {0.5 * c.drum.diameter, c.drum.length, c.drum.speed, c.measurement.velocity_grid}, window);
+    result.observables.values.push_back(mean_torque(torques, window));
+    packing::add_contact_figures(result.observables, simulation, meter);
     result.state_hash = simulation.state_hash();
     result.steps = meter.steps;
     result.wall_seconds = meter.wall_seconds;

@@ -1,6 +1,7 @@
 #include "packing/fill_tube.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 
@@ -9,6 +10,7 @@
 #include "meshes/read_mesh.hpp"
 #include "observables/bed.hpp"
 #include "packing/insertion.hpp"
+#include "packing/run_figures.hpp"
 #include "packing/stage.hpp"
 
 namespace pelletlab::packing {
@@ -92,6 +94,9 @@ RunResult fill_tube(const Case& c, const RunInputs& inputs, const std::function<
     RunResult result;
     result.observables = observables::measure_tube_bed(last, {0.5 * c.tube.diameter, 0.0, c.measurement.height_grid});
     if (status == SettleStatus::not_at_rest) result.observables.status = "not at rest";
+    if (const double share = load_share(simulation, "floor"); std::isfinite(share))
+        result.observables.values.push_back({"floor_load_share", "1", share, not_known, {simulation.time(), simulation.time()}, "tube.floor_load"});
+    add_contact_figures(result.observables, simulation, meter);
     result.state_hash = simulation.state_hash();
     result.steps = meter.steps;
     result.wall_seconds = meter.wall_seconds;

@@ -67,7 +67,7 @@ StageEnd run_stage(solver::Simulation& simulation, const Stage& stage, const Fra
     const double step = simulation.definition().time_step;
     const std::uint64_t total = stage.duration > 0.0 ? steps_in(stage.duration, step) : 0;
     const std::uint64_t frame_every = stage.frame_interval > 0.0 ? steps_in(stage.frame_interval, step) : 0;
-    const std::uint64_t watch_every = stage.watch && stage.watch_interval > 0.0 ? steps_in(stage.watch_interval, step) : 0;
+    const std::uint64_t watch_every = stage.watch_interval > 0.0 ? steps_in(stage.watch_interval, step) : 0;
     Reporter reporter(stage, simulation, progress);
     StageEnd end = StageEnd::time_is_up;
     std::uint64_t done = 0;
@@ -81,7 +81,10 @@ StageEnd run_stage(solver::Simulation& simulation, const Stage& stage, const Fra
         meter.steps += batch;
         done += batch;
         stored = false;
-        if (watch_every > 0 && done % watch_every == 0 && stage.watch(simulation)) end = StageEnd::watch_ended_it;
+        if (watch_every > 0 && done % watch_every == 0) {
+            meter.largest_overlap_ratio = std::max(meter.largest_overlap_ratio, simulation.contacts().largest_overlap_ratio);
+            if (stage.watch && stage.watch(simulation)) end = StageEnd::watch_ended_it;
+        }
         if (frame_every > 0 && done % frame_every == 0) {
             if (frames) frames(capture_frame(simulation));
             stored = true;

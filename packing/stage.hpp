@@ -15,7 +15,8 @@ namespace pelletlab::packing {
 /// What stepping has cost so far.
 struct RunMeter {
     std::uint64_t steps = 0;
-    double wall_seconds = 0.0;  ///< of stepping alone
+    double wall_seconds = 0.0;           ///< of stepping alone
+    double largest_overlap_ratio = 0.0;  ///< overlap / radius of the smaller sphere, of all contacts at all watch times so far
 
     double pellet_steps_per_second(std::size_t pellets) const {
         return wall_seconds > 0.0 ? static_cast<double>(steps) * static_cast<double>(pellets) / wall_seconds : 0.0;
@@ -26,8 +27,8 @@ struct Stage {
     std::string name;             ///< «settling»
     double duration = 0.0;        ///< [s] of simulated time, the most
     double frame_interval = 0.0;  ///< [s] between stored frames; 0: none but the last
-    double watch_interval = 0.0;  ///< [s] between calls of `watch`; 0: never
-    /// Looks at the simulation (and may keep what it sees); true ends the stage.
+    double watch_interval = 0.0;  ///< [s] between looks at the contacts and calls of `watch`; 0: never
+    /// May be empty. Looks at the simulation (and may keep what it sees); true ends the stage.
     std::function<bool(const solver::Simulation&)> watch;
     /// For Progress::note; may be empty.
     std::function<std::string()> note;

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "tests/unit/observables/documented.hpp"
 #include "tests/unit/packing/small_case.hpp"
 
 using namespace pelletlab;
@@ -45,6 +47,7 @@ TEST(RotatingDrum, LiftsItsBedOnTheLeft) {
                                      return packing::FrameSink([&](const Frame& frame) { frames.push_back(frame); });
                                  },
                                  {});
+    expect_documented(result.observables);
     // 5 rad/s about +y carries the bottom towards −x, so the bed's surface is high on the left: its angle is positive and well above zero.
     EXPECT_GT(find(result.observables, "centre_of_mass_angle").value, 10.0);
     EXPECT_LT(find(result.observables, "centre_of_mass_angle").value, 70.0);
@@ -52,6 +55,11 @@ TEST(RotatingDrum, LiftsItsBedOnTheLeft) {
     EXPECT_GT(find(result.observables, "rigid_layer_rotation").value, 0.3);
     EXPECT_LT(find(result.observables, "rigid_layer_rotation").value, 1.05);
     EXPECT_NEAR(find(result.observables, "bed_height").window.end - find(result.observables, "bed_height").window.begin, 0.19, 1e-6);
+    // In the mean the drive balances the weight of the lifted bed, M g R_com sin β; the circle's segment of 20 % has its centre of mass at 0.70 R.
+    const MassProperties& mass = dumbbell_inputs().clump.rigid.mass_properties;
+    const double weight = 120 * mass.mass * 9.81,
+                 arm = 0.7 * 0.5 * c.drum.diameter * std::sin(find(result.observables, "centre_of_mass_angle").value * std::numbers::pi / 180);
+    EXPECT_NEAR(find(result.observables, "drum_torque").value, 1e3 * weight * arm, 0.3 * 1e3 * weight * arm);
     // Frames: the cloud, sparse ones of settling and spin-up, 20 of the measurement.
     ASSERT_GT(frames.size(), 22u);
     for (std::size_t k = frames.size() - 19; k < frames.size(); ++k) EXPECT_NEAR(frames[k].time - frames[k - 1].time, 0.01, 1e-9);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "tests/unit/observables/documented.hpp"
 #include "tests/unit/observables/synthetic.hpp"
 
 using namespace pelletlab;
@@ -35,6 +36,7 @@ TEST(TubeBed, BrickWallHasTheHeightAndPackingOfABrickWall) {
             for (int j = -12; j <= 12; ++j) add_body(frame, {i * 2e-3, j * 2e-3, (layer + 0.5) * 1e-3});
     const Trajectory trajectory = trajectory_of(brick, {frame});
     const Observables bed = measure_tube_bed(trajectory, {20e-3, 0.0, 0.7e-3});
+    expect_documented(bed);
     // Exact geometry: rounding only. Bricks count by their centre, so those inside fill the circle's area to the share of one ring of bricks.
     EXPECT_NEAR(value_of(bed, "bed_height_grid"), 5.0, 1e-9);
     EXPECT_NEAR(value_of(bed, "bed_height_h95"), 5.0, 1e-9);

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "tests/unit/observables/documented.hpp"
 #include "tests/unit/observables/synthetic.hpp"
 
 using namespace pelletlab;
@@ -39,6 +40,7 @@ TEST(DrumMeasurement, StraightSurfaceOfThirtyDegreesIsFound) {
     DrumBed bed;
     bed.below = under_straight_surface(-0.018, 30.0 * degree);
     const Observables drum = measure_drum(drum_trajectory(bed, 60, 0.01, 1), {bed.radius, bed.length, 2.0, 2e-3}, {0.0, 1.0});
+    expect_documented(drum);
     // Shot noise of the columns leaves 0.3° (60 frames × 300 spheres; observed scatter over seeds); smoothing over one diameter bends nothing on a straight
     // line.
     EXPECT_NEAR(find(drum, "upper_angle_of_repose").value, 30.0, 1.0);

@@ -7,6 +7,7 @@
 #include "core/parallel.hpp"
 #include "packing/fill_tube.hpp"
 #include "packing/stage.hpp"
+#include "tests/unit/observables/documented.hpp"
 #include "tests/unit/packing/small_case.hpp"
 
 using namespace pelletlab;
@@ -72,9 +73,16 @@ TEST(FillTube, SmallBedComesToRestOnTheFloor) {
         [&](const Progress& progress) { told.push_back(progress); });
     EXPECT_EQ(result.observables.status, "complete");
     EXPECT_EQ(value_of(result.observables, "pellets_counted"), 60.0);
+    expect_documented(result.observables);
     // A bed of dumbbells in a tube of five diameters packs between a very loose one (the wall costs about 0.1) and the densest conceivable.
     EXPECT_GT(value_of(result.observables, "packing_fraction_mass"), 0.35);
     EXPECT_LT(value_of(result.observables, "packing_fraction_mass"), 0.74);
+    // Statics: what the floor does not carry hangs on the shell by friction, and together they carry the bed's weight, so the share lies between 0 and 1.
+    EXPECT_GT(value_of(result.observables, "floor_load_share"), 0.3);
+    EXPECT_LT(value_of(result.observables, "floor_load_share"), 1.001);
+    EXPECT_GT(value_of(result.observables, "touching_neighbours"), 2.0);
+    EXPECT_GT(value_of(result.observables, "largest_overlap_ratio"), 0.0);
+    EXPECT_LT(value_of(result.observables, "largest_overlap_ratio"), 0.5);
     // Frames: the loose cloud at 0 s, one each 0.01 s, and the bed at rest.
     ASSERT_GT(frames.size(), 5u);
     EXPECT_EQ(frames[0].time, 0.0);

@@ -1,0 +1,28 @@
+#include "packing/run_figures.hpp"
+
+namespace pelletlab::packing {
+
+void add_contact_figures(Observables& observables, const solver::Simulation& simulation, const RunMeter& meter) {
+    const solver::ContactSummary contacts = simulation.contacts();
+    const double pellets = static_cast<double>(simulation.bodies().size()), now = simulation.time();
+    const auto add = [&](const char* name, double value, const TimeWindow& window, const char* method) {
+        observables.values.push_back({name, "1", value, not_known, window, method});
+    };
+    add("largest_overlap_ratio", meter.largest_overlap_ratio, {0.0, now}, "run.largest_overlap");
+    add("touching_neighbours", 2.0 * static_cast<double>(contacts.touching_pairs) / pellets, {now, now}, "run.contacts");
+    add("sphere_contacts_per_pellet", static_cast<double>(contacts.sphere_contacts) / pellets, {now, now}, "run.contacts");
+    add("wall_contacts_per_pellet", static_cast<double>(contacts.wall_contacts) / pellets, {now, now}, "run.contacts");
+}
+
+double load_share(const solver::Simulation& simulation, const std::string& wall) {
+    const solver::SimulationDefinition& definition = simulation.definition();
+    double mass = 0.0;
+    for (const std::uint32_t index : simulation.bodies().template_index) mass += definition.templates[index].mass_properties.mass;
+    const double g = definition.gravity.norm();
+    if (!(mass * g > 0.0)) return not_known;
+    for (std::size_t k = 0; k < definition.walls.size(); ++k)
+        if (definition.walls[k].name == wall) return simulation.wall_loads()[k].force.dot(definition.gravity) / (mass * g * g);
+    return not_known;
+}
+
+}  // namespace pelletlab::packing
