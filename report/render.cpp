@@ -54,6 +54,19 @@ Light smoothed(const Band& band, std::int64_t x, std::int64_t y) {
     return here.colour(key / count, sky / count);
 }
 
+/// Bytes of a colour, rounded up or down by a fixed pattern of the pixel's place, so that slow gradients show no steps. Whole bytes, white paper among them,
+/// stay. The pattern is interleaved gradient noise (J. Jimenez 2014, "Next generation post processing in Call of Duty", SIGGRAPH course).
+Srgb dithered(const Light& light, std::int64_t x, std::int64_t y) {
+    const auto fraction = [](double value) { return value - std::floor(value); };
+    const double noise = 0.998 * (fraction(52.9829189 * fraction(0.06711056 * static_cast<double>(x) + 0.00583715 * static_cast<double>(y))) - 0.5);
+    Srgb bytes{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double level = 255.0 * srgb_from_linear(static_cast<double>(light[static_cast<Eigen::Index>(k)]));
+        bytes[k] = static_cast<std::uint8_t>(std::clamp(std::lround(level + noise), 0L, 255L));
+    }
+    return bytes;
+}
+
 }  // namespace
 
 Image render(const Scene& scene, const Camera& camera, std::uint32_t width, std::uint32_t height, std::uint32_t samples_per_pixel) {
@@ -74,8 +87,7 @@ Image render(const Scene& scene, const Camera& camera, std::uint32_t width, std:
         parallel_for(static_cast<std::size_t>(bottom - top), 8, [&](std::size_t row) {
             const std::int64_t y = top + static_cast<std::int64_t>(row);
             for (std::int64_t x = 0; x < band.width; ++x) {
-                const Light light = smoothed(band, x, y);
-                const Srgb bytes = srgb_bytes({light[0], light[1], light[2]});
+                const Srgb bytes = dithered(smoothed(band, x, y), x, y);
                 std::copy(bytes.begin(), bytes.end(), image.rgb.begin() + 3 * (y * band.width + x));
             }
         });
