@@ -16,7 +16,7 @@
 namespace {
 
 constexpr const char* description =
-    "PelletLab: from the mesh of a pellet to a validated DEM simulation.\n"
+    "PelletLab: from the mesh of a pellet to a measured DEM simulation.\n"
     "Verbs run one after the other; each reads the files of the one before:\n"
     "  pelletlab shape meshes/assets/cylinder_3.12x2.96.stl --unit mm -n 24 -o pellet.clump.toml\n"
     "  pelletlab fill examples/tube.toml\n"
@@ -45,6 +45,7 @@ pelletlab::Error unknown_word(const CLI::App& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    pelletlab::install_interrupt_handler();
     CLI::App app(description, "pelletlab");
     app.require_subcommand(1);
     app.fallthrough();
@@ -60,7 +61,6 @@ int main(int argc, char** argv) {
     pelletlab::apps::add_case_verb(app);
     pelletlab::apps::add_mesh_verb(app);
 
-    pelletlab::install_interrupt_handler();
     try {
         app.parse(argc, argv);
         return 0;
