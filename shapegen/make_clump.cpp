@@ -41,7 +41,7 @@ MadeClump make_clump(const TriangleMesh& body, const ClumpSettings& settings, co
     const auto exact = meshes::exact_signed_distance(body);
     MadeClump made;
     if (settings.voxel_fraction > 0.0) {
-        const auto grid = meshes::grid_signed_distance(body, settings.voxel_fraction * bounding_box(body).sizes().minCoeff());
+        const auto grid = meshes::grid_signed_distance(body, settings.voxel_fraction * bounding_box(body).sizes().minCoeff(), meshes::GridFill::openvdb);
         made.fit = fit_spheres(body, *grid, settings.fit, progress);
     } else {
         made.fit = fit_spheres(body, *exact, settings.fit, progress);

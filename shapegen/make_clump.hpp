@@ -15,8 +15,7 @@ struct ClumpSettings {
     FitSettings fit;
     double density = 1800.0;  ///< [kg/m³]
     MassSource mass_source = MassSource::target_mesh;
-    double voxel_fraction = 0.0;  ///< 0: the fit asks the exact distance. Else a grid of this voxel / smallest extent of the body: dearer to build than
-                                  ///< the fit itself and less exact, but cheaper a query for meshes of very many triangles
+    double voxel_fraction = 1.0 / 32.0;  ///< voxel of OpenVDB's search grid / smallest extent of the body; 0: the fit asks the exact distance instead
 };
 
 struct MadeClump {
