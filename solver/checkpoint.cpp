@@ -17,7 +17,7 @@ namespace pelletlab::solver {
 namespace {
 
 constexpr std::array<char, 8> magic{'P', 'L', 'A', 'B', 'C', 'K', 'P', 'T'};
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 
 struct Header {
     std::array<char, 8> magic;
@@ -101,7 +101,7 @@ private:
 struct SavedSpring {
     std::uint32_t i, j;
     std::uint32_t a, b;
-    detail::Spring spring;
+    double spring[3];
 };
 
 struct SavedHistory {
@@ -137,7 +137,12 @@ std::vector<char> payload_of(const Simulation::State& s) {
         const detail::PairRecord& r = s.pairs.records[k];
         const detail::PairBlock& block = s.pairs.blocks[s.pairs.block_of_body[s.pairs.records[k].i]];
         for (std::size_t c = r.first; c < r.first + std::size_t{r.count}; ++c)
-            if (block.candidates[c].touching()) springs.push_back({r.i, r.j, block.candidates[c].sphere_a(), block.candidates[c].b, block.springs[c]});
+            if (block.candidates[c].touching())
+                springs.push_back({r.i,
+                                   r.j,
+                                   block.candidates[c].sphere_a(),
+                                   block.candidates[c].b,
+                                   {block.springs[c].row[0], block.springs[c].row[1], block.springs[c].row[2]}});
     }
     w.put(static_cast<std::uint64_t>(springs.size()));
     for (const SavedSpring& spring : springs) w.put(spring);
@@ -221,7 +226,7 @@ bool install(Simulation::State& s, const Saved& saved) {
         for (std::size_t c = record.first; c < record.first + std::size_t{record.count} && next < saved.springs.size(); ++c) {
             const SavedSpring& spring = saved.springs[next];
             if (spring.i != record.i || spring.j != record.j || block.candidates[c].key() != ((spring.a << 16) | spring.b)) continue;
-            block.springs[c] = spring.spring;
+            block.springs[c] = {{spring.spring[0], spring.spring[1], spring.spring[2], 0.0}};
             block.candidates[c].a |= detail::Candidate::touching_bit;
             ++next;
         }

@@ -26,7 +26,7 @@ void carry_over(const PairBlock& from, const PairRecord& old, PairBlock& to, Pai
     to.candidates.insert(to.candidates.end(), from.candidates.begin() + old.first, from.candidates.begin() + old.first + old.count);
     to.springs.insert(to.springs.end(), from.springs.begin() + old.first, from.springs.begin() + old.first + old.count);
     to.candidates.resize(padded(to.candidates.size()), Candidate{0, 0});
-    to.springs.resize(to.candidates.size(), Spring{0.0, 0.0, 0.0});
+    to.springs.resize(to.candidates.size(), Spring{{0.0, 0.0, 0.0, 0.0}});
 }
 
 /// Candidates of a pair and how far apart the nearest spheres are that are not candidates (at least).
@@ -118,7 +118,7 @@ void refresh_candidates(PairBlock& block, PairRecord& record, const BodyTemplate
     record.skin = static_cast<float>(skin);
     record.refreshed = step;
     search(ti, tj, pose, skin, std::max(6.0 * skin, usual_skin), found);
-    springs.assign(found.candidates.size(), Spring{0.0, 0.0, 0.0});
+    springs.assign(found.candidates.size(), Spring{{0.0, 0.0, 0.0, 0.0}});
     std::size_t old = record.first;
     const std::size_t old_end = record.first + record.count;
     for (std::size_t k = 0; k < found.candidates.size(); ++k) {  // both lists are sorted by key
@@ -136,7 +136,7 @@ void refresh_candidates(PairBlock& block, PairRecord& record, const BodyTemplate
         record.first = static_cast<std::uint32_t>(block.candidates.size());
         record.capacity = static_cast<std::uint16_t>(capacity);
         block.candidates.resize(record.first + capacity, Candidate{0, 0});
-        block.springs.resize(record.first + capacity, Spring{0.0, 0.0, 0.0});
+        block.springs.resize(record.first + capacity, Spring{{0.0, 0.0, 0.0, 0.0}});
     }
     std::copy(found.candidates.begin(), found.candidates.end(), block.candidates.begin() + record.first);
     std::copy(springs.begin(), springs.end(), block.springs.begin() + record.first);

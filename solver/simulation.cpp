@@ -310,7 +310,8 @@ std::vector<ContactPoint> Simulation::contact_points() const {
             const double overlap = a.r + b.r - d.norm();
             if (overlap <= 0.0) continue;
             const detail::Spring& spring = block.springs[c];
-            points.push_back({r.i, candidate.sphere_a(), -1, r.j, candidate.b, d.normalized(), overlap, pi.orientation * Vec3(spring.x, spring.y, spring.z)});
+            points.push_back(
+                {r.i, candidate.sphere_a(), -1, r.j, candidate.b, d.normalized(), overlap, pi.orientation * Vec3(spring.row[0], spring.row[1], spring.row[2])});
         }
     }
     std::vector<detail::WallOverlap> overlaps;
@@ -379,7 +380,7 @@ std::uint64_t Simulation::state_hash() const {
             if (!block.candidates[c].touching()) continue;
             hash.add((std::uint64_t{r.i} << 32) | r.j);
             hash.add(std::uint64_t{block.candidates[c].key()});
-            for (const double x : {block.springs[c].x, block.springs[c].y, block.springs[c].z}) hash.add(x);
+            for (const double x : block.springs[c].row) hash.add(x);
         }
     }
     for (const detail::Wall& wall : s.walls) {

@@ -34,7 +34,7 @@ private:
 
 void Simulation::step() {
     State& s = *state_;
-    const detail::StepClock clock{s.definition.time_step, s.definition.time_step};
+    const detail::StepClock clock{s.definition.time_step, s.definition.time_step, static_cast<std::uint32_t>(s.steps + 1)};
     s.view_is_current = false;
     StopWatch watch(s.stage_seconds);
     const double furthest2 = s.kick_and_drift_bodies();
@@ -162,7 +162,7 @@ void Simulation::State::sum_wall_loads() {
 
 void Simulation::State::look_at_forces() {
     for (std::size_t i = 0; i < bodies.size(); ++i) detail::fill_record(bodies, templates[bodies.template_of(i)], i, kinematics[i]);
-    const detail::StepClock clock{0.0, definition.time_step};
+    const detail::StepClock clock{0.0, definition.time_step, static_cast<std::uint32_t>(steps)};
     compute_pair_forces(clock);
     compute_wall_forces(clock);
     gather_forces_and_kick(0.0);

@@ -23,6 +23,8 @@ struct Scratch {
     std::vector<PairSlot> slots;
     std::vector<Active> active;
     std::vector<WallHistory> fresh;  ///< of each contact
+    std::vector<Spring> springs;     ///< of each contact
+    std::size_t cursor = 0;          ///< in the history of the body at hand
     std::vector<Hit> hits;
     std::vector<std::uint32_t> faces;
     std::vector<std::uint8_t> used;
@@ -108,6 +110,7 @@ bool stale(const NearWall& near, const RelativePose& pose, double rho) {
 
 /// a turned by the smallest rotation that takes unit vector `from` to unit vector `to`.
 Vec3 turned(const Vec3& a, const Vec3& from, const Vec3& to) {
+    if (from == to) return a;
     const Vec3 axis = from.cross(to);
     const double c = from.dot(to);
     if (c < -0.999) return a - to * a.dot(to);
@@ -116,13 +119,16 @@ Vec3 turned(const Vec3& a, const Vec3& from, const Vec3& to) {
 
 /// The spring that contact (sphere, patch, normal) inherits: from the same patch first, then from any contact of the sphere that pointed the same
 /// way (the hand-over at an edge); each old contact serves once.
-Vec3 inherited_spring(const std::vector<WallHistory>& history, std::vector<std::uint8_t>& used, std::uint32_t sphere, std::uint32_t patch, const Vec3& normal) {
+Vec3 inherited_spring(const std::vector<WallHistory>& history, std::vector<std::uint8_t>& used, std::size_t& cursor, std::uint32_t sphere, std::uint32_t patch,
+                      const Vec3& normal) {
     constexpr double same_way = 0.70710678;  // within 45°
+    while (cursor < history.size() && history[cursor].sphere < sphere) ++cursor;
+    if (cursor == history.size() || history[cursor].sphere != sphere) return Vec3::Zero();
     for (const bool same_patch : {true, false}) {
         double best = same_way;
         std::size_t choice = history.size();
-        for (std::size_t h = 0; h < history.size(); ++h) {
-            if (history[h].sphere != sphere || used[h] || (same_patch && history[h].patch != patch)) continue;
+        for (std::size_t h = cursor; h < history.size() && history[h].sphere == sphere; ++h) {
+            if (used[h] || (same_patch && history[h].patch != patch)) continue;
             const double alike = history[h].normal.dot(normal);
             if (alike > best) best = alike, choice = h;
         }
@@ -138,17 +144,17 @@ void add_contact(const Wall& wall, const NearWall& near, std::uint32_t sphere, c
     const double distance = std::sqrt(hit.distance2);
     const Vec3 normal = distance > 0.0 ? Vec3((c - hit.point) / distance) : wall.mesh.normals[hit.face];
     const std::uint32_t patch = wall.mesh.patch[hit.face];
-    const Vec3 spring = inherited_spring(near.history, s.used, sphere, patch, normal);
-    s.storage.reserve(s.storage.batch.size + 1);
+    const Vec3 spring = inherited_spring(near.history, s.used, s.cursor, sphere, patch, normal);
     ContactBatch& b = s.storage.batch;
     const std::size_t n = b.size++;
     const Vec3 d = normal * std::max(distance, 1e-200);
     b.dx[n] = d.x(), b.dy[n] = d.y(), b.dz[n] = d.z();
     b.ax[n] = hit.point.x(), b.ay[n] = hit.point.y(), b.az[n] = hit.point.z();
     b.ra[n] = 0.0, b.rb[n] = ball.r;
-    b.sx[n] = spring.x(), b.sy[n] = spring.y(), b.sz[n] = spring.z();
     b.slot[n] = static_cast<std::uint32_t>(s.slots.size());
+    b.spring[n] = static_cast<std::uint32_t>(n);
     s.fresh.push_back({sphere, patch, normal, spring});
+    s.springs.push_back({{spring.x(), spring.y(), spring.z(), 0.0}});
 }
 
 /// Puts the contacts of one body into the batch. True when there are any.
@@ -156,18 +162,17 @@ bool collect(const Wall& wall, const NearWall& near, const RelativePose& pose, c
     const Mat3 r = rotation_of(pose);
     const Vec3 p = vec(pose.p);
     const std::size_t before = s.storage.batch.size;
+    s.storage.reserve(before + near.candidates.size());
     s.used.assign(near.history.size(), 0);
+    s.cursor = 0;
     for (std::size_t k = 0; k < near.candidates.size();) {
         const std::uint32_t sphere = near.candidates[k].sphere;
         const Ball& ball = t.balls[sphere];
         const Vec3 c = r * Vec3(ball.x, ball.y, ball.z) + p;
         s.hits.clear();
         for (; k < near.candidates.size() && near.candidates[k].sphere == sphere; ++k) {
-            const std::uint32_t face = near.candidates[k].face;
-            const double height = wall.mesh.normals[face].dot(c - wall.mesh.corner(face, 0));
-            if (height * height >= ball.r * ball.r * (1.0 + 1e-12)) continue;  // the distance is not smaller than the height over the face's plane
-            const Hit hit = closest_point(wall.mesh, face, c);
-            if (hit.distance2 < ball.r * ball.r) s.hits.push_back(hit);
+            Hit hit;
+            if (touches(wall.mesh, near.candidates[k].face, c, ball.r, hit)) s.hits.push_back(hit);
         }
         if (s.hits.size() == 1) {
             if (is_local_minimum(wall.mesh, s.hits[0], c)) add_contact(wall, near, sphere, ball, c, s.hits[0], s);
@@ -236,6 +241,7 @@ void wall_contact_forces(Wall& wall, std::size_t begin, std::size_t end, const s
     s.slots.clear();
     s.active.clear();
     s.fresh.clear();
+    s.springs.clear();
     const double* q = wall.record.turn();
     const Matrix3 frame = matrix_of(q[0], q[1], q[2], q[3]);
     const Mat3 to_world = quat(q).toRotationMatrix(), to_wall = to_world.transpose();
@@ -262,6 +268,7 @@ void wall_contact_forces(Wall& wall, std::size_t begin, std::size_t end, const s
     }
 
     ContactBatch& batch = s.storage.batch;
+    batch.springs = s.springs.data();
     kernels.contact_forces(wall.law, batch, s.slots.data(), clock);
 
     for (const Active& active : s.active) {
@@ -273,8 +280,7 @@ void wall_contact_forces(Wall& wall, std::size_t begin, std::size_t end, const s
         if (clock.spring_step > 0.0) {
             std::vector<WallHistory>& history = wall.watches[active.body].near->history;
             history.assign(s.fresh.begin() + active.first_contact, s.fresh.begin() + active.contact_end);
-            for (std::uint32_t c = active.first_contact; c < active.contact_end; ++c)
-                history[c - active.first_contact].spring = {batch.sx[c], batch.sy[c], batch.sz[c]};
+            for (std::uint32_t c = active.first_contact; c < active.contact_end; ++c) history[c - active.first_contact].spring = vec(s.springs[c].row);
         }
         const Vec3 world_force = to_world * force, world_torque = to_world * (torque - active.place.cross(force));
         LoadRow& load = wall.loads[active.body];

@@ -149,6 +149,13 @@ void find_patches(WallMesh& wall) {
     }
 }
 
+void find_planes(WallMesh& wall) {
+    for (std::uint32_t f = 0; f < wall.faces.size(); ++f) {
+        const Vec3 a = wall.corner(f, 0), b = wall.corner(f, 1) - a, c = wall.corner(f, 2) - a, n = b.cross(c);
+        wall.planes.push_back({a, wall.normals[f], c.cross(n) / n.squaredNorm(), n.cross(b) / n.squaredNorm()});
+    }
+}
+
 /// Vertices that lie inside border edges: cracks that a welded mesh would not have. Quadratic in the border, which is short.
 void count_t_junctions(WallMesh& wall) {
     std::vector<std::uint32_t> border;
@@ -194,6 +201,7 @@ WallMesh make_wall_mesh(const TriangleMesh& mesh, double feature_angle, const st
     if (wall.faces.empty()) throw bad_input("wall «" + name + "» has no triangle with an area", "repair the mesh");
     find_edges(wall);
     find_patches(wall);
+    find_planes(wall);
     count_t_junctions(wall);
     wall.report.faces = wall.faces.size();
     wall.report.patches = wall.patch_count;
@@ -223,6 +231,20 @@ Hit closest_point(const WallMesh& mesh, std::uint32_t face, const Vec3& p) {
     // Inside the face: the foot of the perpendicular, taken along the stored normal so that all triangulations of a plane agree to the last digits.
     const Vec3& n = mesh.normals[face];
     return hit_at(p - n * n.dot(ap), FeatureKind::face, 0);
+}
+
+bool touches(const WallMesh& mesh, std::uint32_t face, const Vec3& centre, double radius, Hit& hit) {
+    const WallMesh::FacePlane& plane = mesh.planes[face];
+    const Vec3 d = centre - plane.a;
+    const double height = plane.normal.dot(d);
+    if (height * height >= radius * radius) return false;
+    const double u = plane.along_b.dot(d), v = plane.along_c.dot(d);
+    if (u >= 0.0 && v >= 0.0 && u + v <= 1.0) {
+        hit = {centre - plane.normal * height, height * height, face, FeatureKind::face, 0};
+        return true;
+    }
+    hit = closest_point(mesh, face, centre);
+    return hit.distance2 < radius * radius;
 }
 
 bool is_local_minimum(const WallMesh& mesh, const Hit& hit, const Vec3& centre) {

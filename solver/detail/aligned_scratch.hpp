@@ -21,7 +21,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t array_count = 11;
+    static constexpr std::size_t array_count = 8;
     std::size_t capacity_ = 0;
     std::vector<double> numbers_;
     std::vector<std::uint32_t> indices_;
@@ -31,14 +31,13 @@ private:
         const std::size_t larger = std::max<std::size_t>({count, 2 * capacity_, 256}), stride = larger + 2 * widest;
         std::vector<double> numbers(array_count * stride);
         std::vector<std::uint32_t> indices(2 * stride);
-        double** fields[array_count] = {&batch.dx, &batch.dy, &batch.dz, &batch.ax, &batch.ay, &batch.az,
-                                        &batch.ra, &batch.rb, &batch.sx, &batch.sy, &batch.sz};
+        double** fields[array_count] = {&batch.dx, &batch.dy, &batch.dz, &batch.ax, &batch.ay, &batch.az, &batch.ra, &batch.rb};
         for (std::size_t f = 0; f < array_count; ++f) {
             double* target = numbers.data() + f * stride;
             std::copy_n(*fields[f], batch.size, target);
             *fields[f] = target;
         }
-        std::uint32_t** index_fields[2] = {&batch.slot, &batch.id};
+        std::uint32_t** index_fields[2] = {&batch.slot, &batch.spring};
         for (std::size_t f = 0; f < 2; ++f) {
             std::uint32_t* target = indices.data() + f * stride;
             std::copy_n(*index_fields[f], batch.size, target);
@@ -61,13 +60,12 @@ public:
         if (scratch.stale && pairs <= capacity_) return;
         capacity_ = pairs;
         const std::size_t stride = pairs + widest + 1;
-        numbers_.resize(12 * stride);
+        poses_.resize(stride);
         indices_.resize(2 * stride);
         stale_.resize(stride);
         slots_.resize(stride);
         rows_.resize(2 * stride);
-        for (std::size_t k = 0; k < 3; ++k) scratch.p[k] = numbers_.data() + k * stride;
-        for (std::size_t k = 0; k < 9; ++k) scratch.r[k] = numbers_.data() + (3 + k) * stride;
+        scratch.poses = poses_.data();
         scratch.stale = stale_.data();
         scratch.active = indices_.data();
         scratch.first_contact = indices_.data() + stride;
@@ -78,7 +76,7 @@ public:
 
 private:
     std::size_t capacity_ = 0;
-    std::vector<double> numbers_;
+    std::vector<PairPose> poses_;
     std::vector<std::uint32_t> indices_;
     std::vector<std::uint8_t> stale_;
     std::vector<PairSlot> slots_;

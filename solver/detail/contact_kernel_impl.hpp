@@ -6,14 +6,14 @@
 namespace pelletlab::solver::detail {
 namespace {
 
-/// Copies of the last contact behind it, so that full registers hold numbers that do no harm.
+/// Copies of the last contact behind it: the last register is full, and what it writes twice is the same twice.
 inline void pad_batch(ContactBatch& b) {
+    double* const columns[8] = {b.dx, b.dy, b.dz, b.ax, b.ay, b.az, b.ra, b.rb};
+    const std::size_t last = b.size - 1;
     for (std::size_t k = b.size; k < b.size + widest - 1; ++k) {
-        b.dx[k] = 1.0, b.dy[k] = 0.0, b.dz[k] = 0.0;
-        b.ax[k] = b.ay[k] = b.az[k] = 0.0;
-        b.ra[k] = b.rb[k] = 1.0;
-        b.sx[k] = b.sy[k] = b.sz[k] = 0.0;
-        b.slot[k] = b.slot[0];
+        for (double* column : columns) column[k] = column[last];
+        b.slot[k] = b.slot[last];
+        b.spring[k] = b.spring[last];
     }
 }
 
@@ -45,12 +45,17 @@ void contact_forces(const LawRow& law, ContactBatch& b, const PairSlot* slots, c
         c.velocity = Triple<V>{slot[0], slot[1], slot[2]} + cross(c.spin, point);
         c.mass = slot[6];
         c.inertia = slot[7];
-        c.spring = carry_spring<L>(load_triple<L>(b.sx, b.sy, b.sz, k), c.normal, c.velocity, c.spin, clock.spring_step);
+        double* springs[L::width];
+        for (std::size_t lane = 0; lane < L::width; ++lane) springs[lane] = b.springs[b.spring[k + lane]].row;
+        V old[4];
+        L::load_short_rows(springs, old);
+        c.spring = carry_spring<L>(Triple<V>{old[0], old[1], old[2]}, c.normal, c.velocity, c.spin, clock.spring_step);
         const ContactResult<V> result = Law::template force<L>(law, c);
         const Triple<V> moment = Rolling::template moment<L>(law, c, result.normal_force, clock.step) + cross(point, result.force);
-        L::store(b.sx + k, result.spring.x);
-        L::store(b.sy + k, result.spring.y);
-        L::store(b.sz + k, result.spring.z);
+        if (clock.spring_step > 0.0) {
+            const V grown[4] = {result.spring.x, result.spring.y, result.spring.z, L::all(0.0)};
+            L::store_short_rows(springs, grown);
+        }
         const V out[8] = {result.force.x, result.force.y, result.force.z, moment.x, moment.y, moment.z, result.normal_force, L::all(0.0)};
         double* targets[L::width];
         for (std::size_t lane = 0; lane < L::width; ++lane) targets[lane] = b.result[k + lane].row;

@@ -49,9 +49,9 @@ struct Candidate {
     std::uint32_t key() const { return (static_cast<std::uint32_t>(sphere_a()) << 16) | b; }
 };
 
-/// Tangential displacement [m] in the frame of body i.
-struct Spring {
-    double x, y, z;
+/// Tangential displacement [m] in the frame of body i (0–2).
+struct alignas(32) Spring {
+    double row[4];
 };
 
 /// Force [N] (0–2) and torque [N m] (3–5) in one cache line.
@@ -92,13 +92,13 @@ struct alignas(64) PairSlot {
 /// Touching spheres of many pairs, structure of arrays; every array has room for a full register behind the last contact.
 struct ContactBatch {
     std::size_t size = 0;
-    double *dx, *dy, *dz;  ///< [m], from the centre of sphere a (or the nearest point of the wall) to the centre of sphere b
-    double *ax, *ay, *az;  ///< [m], the centre of sphere a (or the point of the wall), frame of i
-    double *ra, *rb;       ///< [m], radii; ra = 0 for a wall
-    double *sx, *sy, *sz;  ///< [m], tangential displacement: in and out
-    std::uint32_t* slot;   ///< pair
-    std::uint32_t* id;     ///< candidate in the pool
-    LoadRow* result;       ///< out: force on j, torque on j about the origin of frame i; row[6] is the normal force
+    double *dx, *dy, *dz;   ///< [m], from the centre of sphere a (or the nearest point of the wall) to the centre of sphere b
+    double *ax, *ay, *az;   ///< [m], the centre of sphere a (or the point of the wall), frame of i
+    double *ra, *rb;        ///< [m], radii; ra = 0 for a wall
+    std::uint32_t* slot;    ///< pair
+    std::uint32_t* spring;  ///< tangential displacement: index into `springs`, different for every contact
+    Spring* springs;        ///< in and out
+    LoadRow* result;        ///< out: force on j, torque on j about the origin of frame i; row[6] is the normal force
 };
 
 inline constexpr std::size_t widest = 8;  ///< lanes of the widest register
@@ -106,10 +106,14 @@ inline constexpr std::size_t widest = 8;  ///< lanes of the widest register
 /// Rolling friction of one contact may stop at most this share of a body's spin in a step (a body has rarely more than eight neighbours).
 inline constexpr double rolling_share = 1.0 / 8.0;
 
+/// Pose of j in the frame of i: place (0–2), rotation matrix by rows (3–11).
+struct alignas(64) PairPose {
+    double row[16];
+};
+
 /// Scratch of one worker for one block of pairs; every array has room for a full register behind the last pair.
 struct PairScratch {
-    double* p[3];  ///< place of j in the frame of i
-    double* r[9];  ///< its rotation matrix, by rows
+    PairPose* poses;
     std::uint8_t* stale;
     std::uint32_t active_count;
     std::uint32_t* active;         ///< touching pairs, counted from the block's first

@@ -50,6 +50,11 @@ struct Avx2Lanes {
         transpose4(a, b, e, d);
         c[0].v = a, c[1].v = b, c[2].v = e, c[3].v = d;
     }
+    static void store_short_rows(double* const* p, const Real* c) {
+        __m256d a = c[0].v, b = c[1].v, e = c[2].v, d = c[3].v;
+        transpose4(a, b, e, d);
+        _mm256_storeu_pd(p[0], a), _mm256_storeu_pd(p[1], b), _mm256_storeu_pd(p[2], e), _mm256_storeu_pd(p[3], d);
+    }
     static void load_rows(const double* const* p, Real* c) {
         const double* second[4] = {p[0] + 4, p[1] + 4, p[2] + 4, p[3] + 4};
         load_short_rows(p, c);

@@ -53,6 +53,18 @@ struct Avx512Lanes {
         transpose8(r);
         for (int k = 0; k < 8; ++k) c[k].v = r[k];
     }
+    static void load_short_rows(const double* const* p, Real* c) {
+        Real4 low[4], high[4];
+        Avx2Lanes::load_short_rows(p, low);
+        Avx2Lanes::load_short_rows(p + 4, high);
+        for (int k = 0; k < 4; ++k) c[k].v = _mm512_insertf64x4(_mm512_castpd256_pd512(low[k].v), high[k].v, 1);
+    }
+    static void store_short_rows(double* const* p, const Real* c) {
+        Real4 low[4], high[4];
+        for (int k = 0; k < 4; ++k) low[k].v = _mm512_castpd512_pd256(c[k].v), high[k].v = _mm512_extractf64x4_pd(c[k].v, 1);
+        Avx2Lanes::store_short_rows(p, low);
+        Avx2Lanes::store_short_rows(p + 4, high);
+    }
     static void load_float_rows(const float* const* p, Real* c) {
         __m512d r[8];
         for (int k = 0; k < 8; ++k) r[k] = _mm512_cvtps_pd(_mm256_loadu_ps(p[k]));

@@ -36,6 +36,9 @@ struct ScalarLanes {
     static void load_short_rows(const double* const* p, Real* column) {
         for (int k = 0; k < 4; ++k) column[k] = p[0][k];
     }
+    static void store_short_rows(double* const* p, const Real* column) {
+        for (int k = 0; k < 4; ++k) p[0][k] = column[k];
+    }
     /// Writes the lanes whose bit is set, one after the other, and may write rubbish behind them, up to `width` numbers in all.
     static void store_chosen(double* p, unsigned, Real a) { *p = a; }
 };

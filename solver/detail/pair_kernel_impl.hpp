@@ -51,10 +51,11 @@ void find_poses(const PairBlockView& block, PairScratch& s) {
         const unsigned stale = L::bits(L::greater(moved, old[7]));
         for (std::size_t lane = 0; lane < L::width; ++lane) s.stale[k + lane] = static_cast<std::uint8_t>((stale >> lane) & 1u);
         const Rotation<V> r = rotation_of<L>(q.w, q.x, q.y, q.z);
-        L::store(s.p[0] + k, p.x), L::store(s.p[1] + k, p.y), L::store(s.p[2] + k, p.z);
-        L::store(s.r[0] + k, r.x.x), L::store(s.r[1] + k, r.x.y), L::store(s.r[2] + k, r.x.z);
-        L::store(s.r[3] + k, r.y.x), L::store(s.r[4] + k, r.y.y), L::store(s.r[5] + k, r.y.z);
-        L::store(s.r[6] + k, r.z.x), L::store(s.r[7] + k, r.z.y), L::store(s.r[8] + k, r.z.z);
+        const V first_row[8] = {p.x, p.y, p.z, r.x.x, r.x.y, r.x.z, r.y.x, r.y.y}, second_row[8] = {r.y.z, r.z.x, r.z.y, r.z.z, zero, zero, zero, zero};
+        double *targets_1[L::width], *targets_2[L::width];
+        for (std::size_t lane = 0; lane < L::width; ++lane) targets_1[lane] = s.poses[k + lane].row, targets_2[lane] = s.poses[k + lane].row + 8;
+        L::store_rows(targets_1, first_row);
+        L::store_rows(targets_2, second_row);
     }
 }
 
@@ -64,7 +65,7 @@ inline void note_changes(const PairBlockView& block, std::size_t first, unsigned
         const unsigned bit = 1u << lane;
         if ((touched & bit) && !(touching & bit)) {
             block.candidates[first + lane].a = block.candidates[first + lane].sphere_a();
-            block.springs[first + lane] = {0.0, 0.0, 0.0};
+            block.springs[first + lane] = {{0.0, 0.0, 0.0, 0.0}};
         }
         if (!(touched & bit) && (touching & bit) && keep_history)
             block.candidates[first + lane].a = static_cast<std::uint16_t>(block.candidates[first + lane].a | Candidate::touching_bit);
@@ -77,17 +78,19 @@ inline void collect_contacts(const PairBlockView& block, const PairScratch& s, s
     using V = typename S::Real;
     const PairRecord& record = block.records[k];
     const Ball *balls_i = block.balls[record.template_i], *balls_j = block.balls[record.template_j];
-    const Triple<V> p{S::all(s.p[0][k]), S::all(s.p[1][k]), S::all(s.p[2][k])};
-    const Rotation<V> r{{S::all(s.r[0][k]), S::all(s.r[1][k]), S::all(s.r[2][k])},
-                        {S::all(s.r[3][k]), S::all(s.r[4][k]), S::all(s.r[5][k])},
-                        {S::all(s.r[6][k]), S::all(s.r[7][k]), S::all(s.r[8][k])}};
+    const double* pose = s.poses[k].row;
+    const Triple<V> p{S::all(pose[0]), S::all(pose[1]), S::all(pose[2])};
+    const Rotation<V> r{{S::all(pose[3]), S::all(pose[4]), S::all(pose[5])},
+                        {S::all(pose[6]), S::all(pose[7]), S::all(pose[8])},
+                        {S::all(pose[9]), S::all(pose[10]), S::all(pose[11])}};
+    const Candidate* const candidates = block.candidates;
     const std::size_t end = record.first + std::size_t{record.count};
     for (std::size_t c = record.first; c < end; c += S::width) {
         // Pools are padded, so a full register may be read.
         const double *rows_i[S::width], *rows_j[S::width];
         unsigned touched = 0;
         for (std::size_t lane = 0; lane < S::width; ++lane) {
-            const Candidate& candidate = block.candidates[c + lane];
+            const Candidate candidate = candidates[c + lane];
             rows_i[lane] = &balls_i[candidate.a & 0x7fffu].x;
             rows_j[lane] = &balls_j[candidate.b].x;
             touched |= static_cast<unsigned>(candidate.a >> 15) << lane;
@@ -106,14 +109,12 @@ inline void collect_contacts(const PairBlockView& block, const PairScratch& s, s
         S::store_chosen(b.dx + n, touching, d.x), S::store_chosen(b.dy + n, touching, d.y), S::store_chosen(b.dz + n, touching, d.z);
         S::store_chosen(b.ax + n, touching, centre.x), S::store_chosen(b.ay + n, touching, centre.y), S::store_chosen(b.az + n, touching, centre.z);
         S::store_chosen(b.ra + n, touching, ball_i[3]), S::store_chosen(b.rb + n, touching, ball_j[3]);
-        for (unsigned rest = touching; rest != 0; rest &= rest - 1) {
-            const std::size_t at = c + static_cast<std::size_t>(__builtin_ctz(rest));
-            const Spring& spring = block.springs[at];
-            b.sx[b.size] = spring.x, b.sy[b.size] = spring.y, b.sz[b.size] = spring.z;
-            b.slot[b.size] = slot;
-            b.id[b.size] = static_cast<std::uint32_t>(at);
-            ++b.size;
+        std::size_t m = n;
+        for (unsigned rest = touching; rest != 0; rest &= rest - 1, ++m) {
+            b.slot[m] = slot;
+            b.spring[m] = static_cast<std::uint32_t>(c) + static_cast<std::uint32_t>(__builtin_ctz(rest));
         }
+        b.size = m;
     }
 }
 
@@ -133,7 +134,7 @@ inline void find_slots(const PairBlockView& block, PairScratch& s) {
             line_i[lane] = first[lane]->motion;
             line_j[lane] = block.kinematics[block.records[pair].j].motion;
             targets[lane] = s.slots[k + lane].row;
-            for (int c = 0; c < 3; ++c) place[c][lane] = s.p[c][pair];
+            for (int c = 0; c < 3; ++c) place[c][lane] = s.poses[pair].row[c];
             contacts[lane] = static_cast<double>(s.first_contact[a + 1] - s.first_contact[a]);
         }
         const PlaceLanes<L> i = load_places<L>(first);
@@ -174,7 +175,7 @@ inline void write_loads(const PairBlockView& block, PairScratch& s, const Contac
             rows[lane] = s.sums[a].row;
             targets_i[lane] = s.loads_i[k + lane].row;
             targets_j[lane] = block.loads_j[pair].row;
-            for (int c = 0; c < 3; ++c) place[c][lane] = s.p[c][pair];
+            for (int c = 0; c < 3; ++c) place[c][lane] = s.poses[pair].row[c];
         }
         const PlaceLanes<L> i = load_places<L>(first);
         V sum[8];
@@ -204,6 +205,7 @@ template <class L, class S, class Law, class Rolling>
 void pair_forces(const LawRow& law, const PairBlockView& block, PairScratch& s, ContactBatch& b, const StepClock& clock) {
     const bool keep_history = clock.spring_step > 0.0;
     b.size = 0;
+    b.springs = block.springs;
     s.active_count = 0;
     s.first_contact[0] = 0;
     for (std::size_t i = block.body_begin; i < block.body_end; ++i) block.own_touching[i] = 0;
@@ -220,8 +222,6 @@ void pair_forces(const LawRow& law, const PairBlockView& block, PairScratch& s, 
     if (b.size == 0) return;
     find_slots<L>(block, s);
     contact_forces<L, Law, Rolling>(law, b, s.slots, clock);
-    if (keep_history)
-        for (std::size_t c = 0; c < b.size; ++c) block.springs[b.id[c]] = {b.sx[c], b.sy[c], b.sz[c]};
     write_loads<L>(block, s, b);
 }
 

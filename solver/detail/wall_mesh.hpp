@@ -32,6 +32,12 @@ struct WallMesh {
     std::vector<std::uint32_t> spokes_first;  ///< per vertex, in `spokes`
     std::vector<Vec3> spokes;                 ///< unit vectors from a vertex along its edges
     std::vector<std::uint8_t> border_vertex;
+    /// For the quick test whether the foot of a point lies inside a face: corner a, unit normal, and two vectors with u = along_b · (p − a),
+    /// v = along_c · (p − a) the coordinates of the foot along the edges a–b and a–c.
+    struct alignas(32) FacePlane {
+        Vec3 a, normal, along_b, along_c;
+    };
+    std::vector<FacePlane> planes;
     std::uint32_t patch_count = 0;
     double cos_feature_angle = 0.0;
     double size = 0.0;  ///< [m], diagonal of the bounding box
@@ -57,6 +63,9 @@ struct Hit {
 
 /// Exact closest point on a triangle in double precision (Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
 Hit closest_point(const WallMesh& mesh, std::uint32_t face, const Vec3& centre);
+
+/// Squared distance bound and hit in one: false when the sphere does not touch the face.
+bool touches(const WallMesh& mesh, std::uint32_t face, const Vec3& centre, double radius, Hit& hit);
 
 /// True when no face or edge that meets at the hit leads closer to the centre.
 bool is_local_minimum(const WallMesh& mesh, const Hit& hit, const Vec3& centre);
