@@ -52,9 +52,10 @@ TriangleMesh read_drum_mesh(const Case& c) {
     const std::string file = (std::filesystem::path(c.folder) / c.drum.mesh_file).string();
     TriangleMesh mesh = meshes::read_mesh(file, c.drum.mesh_unit);
     const Box box = bounding_box(mesh);
+    // A mesh of the solid drum has an outer surface as well, so it may be larger than the inside; twice as large is a wrong unit.
     const Vec3 half(0.5 * c.drum.diameter, 0.5 * c.drum.length, 0.5 * c.drum.diameter);
-    const double slack = 0.05 * c.drum.diameter;
-    if ((box.min() + half).maxCoeff() > slack || (box.max() - half).minCoeff() < -slack)
+    const Vec3 reach_up = box.max().cwiseQuotient(half), reach_down = (-box.min()).cwiseQuotient(half);
+    if (std::min(reach_up.minCoeff(), reach_down.minCoeff()) < 0.95 || std::max(reach_up.maxCoeff(), reach_down.maxCoeff()) > 2.0)
         throw bad_input("the drum mesh does not enclose a cylinder of drum.diameter and drum.length about the y axis, centred in the origin",
                         "move the mesh there, or correct drum.diameter, drum.length or drum.mesh_unit", {file});
     return mesh;

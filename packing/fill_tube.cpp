@@ -39,8 +39,11 @@ TriangleMesh read_tube_mesh(const Case& c, double cloud_top) {
     const std::string file = (std::filesystem::path(c.folder) / c.tube.mesh_file).string();
     TriangleMesh mesh = meshes::read_mesh(file, c.tube.mesh_unit);
     const Box box = bounding_box(mesh);
+    // A mesh of the solid vessel has an outer surface as well, so it may be wider than the bore; twice as wide is a wrong unit.
     const double radius = 0.5 * c.tube.diameter, slack = 0.05 * c.tube.diameter;
-    const bool fits = std::abs(box.min().z()) < slack && box.min().head<2>().maxCoeff() < -radius + slack && box.max().head<2>().minCoeff() > radius - slack;
+    const double narrowest = std::min(box.max().head<2>().minCoeff(), -box.min().head<2>().maxCoeff());
+    const double widest = std::max(box.max().head<2>().maxCoeff(), -box.min().head<2>().minCoeff());
+    const bool fits = narrowest > radius - slack && widest < 2.0 * radius && box.min().z() < slack && box.min().z() > -c.tube.diameter;
     if (!fits)
         throw bad_input("the tube mesh does not enclose a circle of tube.diameter about the z axis with its floor at z = 0",
                         "move the mesh there, or correct tube.diameter or tube.mesh_unit", {file});

@@ -8,8 +8,7 @@ namespace {
 
 const Material& material_of(const Case& c, const std::string& name) {
     const auto found = c.materials.find(name);
-    if (found == c.materials.end())
-        throw bad_input("the material '" + name + "' is not defined", "add a table [materials." + name + "] to the case", {c.folder});
+    if (found == c.materials.end()) throw bad_input("the material '" + name + "' is not defined", "add a table [materials." + name + "] to the case");
     return found->second;
 }
 
@@ -26,8 +25,7 @@ solver::PairParameters pair(const ContactParameters& contact) {
 solver::SimulationDefinition define_simulation(const Case& c, const RunInputs& inputs, std::vector<solver::WallDefinition> walls) {
     const Material& material = material_of(c, c.pellet.material);
     const auto contact = c.contacts.find("pellet-pellet");
-    if (contact == c.contacts.end())
-        throw bad_input("the contact 'pellet-pellet' is not defined", "add a table [contacts.pellet-pellet] to the case", {c.folder});
+    if (contact == c.contacts.end()) throw bad_input("the contact 'pellet-pellet' is not defined", "add a table [contacts.pellet-pellet] to the case");
     RigidTemplate pellet = inputs.clump.rigid;
     if (pellet.spheres.empty() || !(pellet.mass_properties.density > 0.0) || !(pellet.mass_properties.volume > 0.0))
         throw bad_input("the clump '" + pellet.name + "' has no spheres, volume or density", "make it again with: pelletlab shape");
@@ -49,7 +47,7 @@ solver::WallDefinition define_wall(const Case& c, std::string name, TriangleMesh
     if (contact == c.contacts.end()) contact = c.contacts.find("pellet-" + material);
     if (contact == c.contacts.end())
         throw bad_input("no contact is defined between the pellets and the wall '" + name + "' of material '" + material + "'",
-                        "add a table [contacts.pellet-" + name + "] or [contacts.pellet-" + material + "] to the case", {c.folder});
+                        "add a table [contacts.pellet-" + name + "] or [contacts.pellet-" + material + "] to the case");
     solver::WallDefinition wall;
     wall.name = std::move(name);
     wall.mesh = std::move(mesh);

@@ -1,12 +1,16 @@
 #include "experiments/rotating_drum.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "meshes/makers.hpp"
+#include "meshes/read_mesh.hpp"
 #include "tests/unit/observables/documented.hpp"
 #include "tests/unit/packing/small_case.hpp"
 
@@ -91,6 +95,30 @@ TEST(RotatingDrum, SameBitsForOneAndTwoThreads) {
     set_thread_count(0);
     EXPECT_EQ(one.state_hash, two.state_hash);
     EXPECT_EQ(find(one.observables, "upper_angle_of_repose").value, find(two.observables, "upper_angle_of_repose").value);
+}
+
+TEST(RotatingDrum, TakesTheUsersOwnDrum) {
+    Case c = drum_case(40);
+    TriangleMesh drum;
+    for (const TriangleMesh& part :
+         {meshes::make_drum_shell(c.drum.diameter, c.drum.length, 36), meshes::make_drum_end(c.drum.diameter, -0.5 * c.drum.length, true, 36),
+          meshes::make_drum_end(c.drum.diameter, 0.5 * c.drum.length, false, 36)}) {
+        const auto offset = static_cast<std::uint32_t>(drum.vertices.size());
+        drum.vertices.insert(drum.vertices.end(), part.vertices.begin(), part.vertices.end());
+        for (const Triangle& face : part.faces) drum.faces.push_back({face[0] + offset, face[1] + offset, face[2] + offset});
+    }
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("pelletlab_drum_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder);
+    meshes::write_stl(drum, folder / "drum.stl", "mm");
+    c.folder = folder.string();
+    c.drum.mesh_file = "drum.stl";
+    c.drum.mesh_unit = "mm";
+    c.time.measure = 0.1;
+    const auto own = run_drum(c, dumbbell_inputs(), {}, {});
+    EXPECT_GT(find(own.observables, "centre_of_mass_angle").value, 10.0);
+    c.drum.mesh_unit = "m";
+    EXPECT_THROW(run_drum(c, dumbbell_inputs(), {}, {}), Error) << "a drum of 30 m";
+    std::filesystem::remove_all(folder);
 }
 
 TEST(RotatingDrum, RefusesACaseOfAnotherRig) {

@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "meshes/makers.hpp"
+#include "meshes/read_mesh.hpp"
 #include "packing/fill_tube.hpp"
 #include "packing/stage.hpp"
 #include "tests/unit/observables/documented.hpp"
@@ -127,6 +131,32 @@ TEST(FillTube, RefusesWhatCannotRun) {
     c = tube_case(5000);
     c.tube.height = 0.03;
     EXPECT_NE(problem_of([&] { fill_tube(c, dumbbell_inputs(), {}, {}); }).find("more pellets than fit"), std::string::npos);
+}
+
+TEST(FillTube, TakesTheUsersOwnTube) {
+    // Shell and floor of the maker, written as one STL in millimetres. 24 facets of a 10 mm tube, higher than the cloud.
+    TriangleMesh tube = meshes::make_tube_shell(0.010, 0.0, 0.060, 24);
+    const TriangleMesh floor = meshes::make_disc(0.005, 0.0, true, 24);
+    const auto offset = static_cast<std::uint32_t>(tube.vertices.size());
+    tube.vertices.insert(tube.vertices.end(), floor.vertices.begin(), floor.vertices.end());
+    for (const Triangle& face : floor.faces) tube.faces.push_back({face[0] + offset, face[1] + offset, face[2] + offset});
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("pelletlab_tube_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder);
+    meshes::write_stl(tube, folder / "tube.stl", "mm");
+
+    Case c = tube_case(20);
+    c.folder = folder.string();
+    c.tube.mesh_file = "tube.stl";
+    c.tube.mesh_unit = "mm";
+    const RunResult result = fill_tube(c, dumbbell_inputs(), {}, {});
+    EXPECT_EQ(result.observables.status, "complete");
+    EXPECT_EQ(value_of(result.observables, "pellets_counted"), 20.0);
+    c.tube.mesh_unit = "m";
+    EXPECT_NE(problem_of([&] { fill_tube(c, dumbbell_inputs(), {}, {}); }).find("tube.diameter"), std::string::npos) << "a tube of 10 m";
+    c.tube.mesh_unit = "mm";
+    c.pellet.count = 300;
+    EXPECT_NE(problem_of([&] { fill_tube(c, dumbbell_inputs(), {}, {}); }).find("mm high"), std::string::npos) << "the cloud is higher than the mesh";
+    std::filesystem::remove_all(folder);
 }
 
 TEST(RunStage, EndsBetweenStepsWhenInterrupted) {
