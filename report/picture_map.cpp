@@ -136,12 +136,14 @@ Srgb pixel_at(const Image& image, double x, double y) {
 }
 
 /// Arrows and, in the lower right corner of the page, one of a round length with its number.
-void draw_arrows(Image& image, const ArrowField& field, const Plot& plot, const detail::Page& page, const std::string& unit, double key_left) {
+void draw_arrows(Image& image, const ArrowField& field, const Plot& plot, const detail::Page& page, const std::string& unit, double key_left,
+                 double circle_radius) {
     if (!(field.long_speed > 0.0)) return;
     const double longest = 1.5 * field.spacing * plot.scale, width = std::max(1.0, 1.7 * page.unit);
     for (std::size_t i = 0; i < field.at.size(); ++i) {
         const double x = plot.x(field.at[i].x), y = plot.y(field.at[i].y), per = longest / field.long_speed;
         const double dx = 0.5 * per * field.velocity[i].x, dy = -0.5 * per * field.velocity[i].y;
+        if (circle_radius > 0.0 && std::hypot(field.at[i].x, field.at[i].y) > circle_radius) continue;
         if (std::hypot(dx, dy) < 0.75) continue;  // shorter than a pixel and a half: at rest
         const Srgb ink = ink_on(pixel_at(image, x, y));
         const bool bright = ink[0] > 128;  // such an arrow may reach over the edge of the bed: a thin dark rim keeps it visible there
@@ -206,7 +208,7 @@ Image picture_of_map(const Observables& observables, const std::string& map_name
     const double bar_left = plot.right + page.margin, bar_height = std::min(0.55 * (plot.bottom - plot.top), 420.0 * page.unit);
     const FieldMap *u = find_map(observables, "vx"), *w = find_map(observables, "vz");
     if (u != nullptr && w != nullptr && map.unit == u->unit && same_grid(map, *u) && same_grid(map, *w))
-        draw_arrows(image, arrows_of(*u, *w, plot.scale, 26.0 * page.unit), plot, page, map.unit, bar_left);
+        draw_arrows(image, arrows_of(*u, *w, plot.scale, 26.0 * page.unit), plot, page, map.unit, bar_left, 0.5 * settings.circle_diameter);
     draw_axes(image, map, plot, page);
     draw_colour_bar(image, bar, bar_left, plot.top + 0.5 * (plot.bottom - plot.top - bar_height), page.bar_width, bar_height, page.text);
     const std::string name = observables.case_name.empty() ? "" : observables.case_name + ": ";
