@@ -32,6 +32,16 @@ RigidTemplate rigid_template(std::string name, std::span<const Sphere> spheres_m
     return result;
 }
 
+ClumpTemplate judged_template(std::span<const Sphere> spheres_mesh, const TriangleMesh& body, const meshes::SignedDistance& exact, double density,
+                              MassSource mass_source) {
+    if (!(density > 0.0)) throw bad_input("the particle density is not positive", "give it like 1800 kg/m^3");
+    ClumpTemplate clump;
+    clump.quality = measure_quality(spheres_mesh, body, exact);
+    clump.mass_source = mass_source;
+    clump.rigid = rigid_template("clump", spheres_mesh, chosen_mass(mass_source, body, spheres_mesh, density));
+    return clump;
+}
+
 MadeClump make_clump(const TriangleMesh& body, const ClumpSettings& settings, const ProgressSink& progress) {
     if (!(settings.density > 0.0)) throw bad_input("the particle density is not positive", "give it like 1800 kg/m^3");
     if (!(settings.voxel_fraction >= 0.0 && settings.voxel_fraction <= 0.25)) {
@@ -47,9 +57,7 @@ MadeClump make_clump(const TriangleMesh& body, const ClumpSettings& settings, co
         made.fit = fit_spheres(body, *exact, settings.fit, progress);
     }
     if (progress) progress({"measuring the fit", 0.0, 1.0, "", 0.0, "", ""});
-    made.clump.quality = measure_quality(made.fit.spheres, body, *exact);
-    made.clump.mass_source = settings.mass_source;
-    made.clump.rigid = rigid_template("clump", made.fit.spheres, chosen_mass(settings.mass_source, body, made.fit.spheres, settings.density));
+    made.clump = judged_template(made.fit.spheres, body, *exact, settings.density, settings.mass_source);
     made.clump.provenance.version = build_version();
     made.clump.provenance.git_hash = build_git_hash();
     made.clump.provenance.verb = "shape";
