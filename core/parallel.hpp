@@ -1,4 +1,4 @@
-// The only header that knows the thread library (oneTBB, or std::jthread for the ThreadSanitizer build).
+// The only header of this house that knows threads: a team that lives as long as the program (thread_team.hpp).
 // Work is cut into blocks of a fixed size that does not depend on the number of threads, and reductions fold the blocks in order:
 // the same bits come out for any thread count.
 #pragma once
@@ -14,7 +14,8 @@ void set_thread_count(int count);
 int thread_count();
 
 /// Calls body(begin, end) once for each block [k·grain, min((k+1)·grain, n)); blocks run in any order and side by side.
-/// An exception thrown by a block is rethrown here after all blocks have ended.
+/// An exception thrown by a block is rethrown here after all blocks have ended; of several, that of the first block. A call from inside a block runs in the
+/// thread at hand.
 void parallel_blocks(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
 
 /// Calls body(i) for every i in [0, n).

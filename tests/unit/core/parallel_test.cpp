@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <thread>
 
 using namespace pelletlab;
 
@@ -41,5 +44,62 @@ TEST(Parallel, RethrowsWhatABlockThrows) {
                                   if (i == 57) throw std::runtime_error("57");
                               }),
                  std::runtime_error);
+    set_thread_count(0);
+}
+
+TEST(Parallel, ThrowsTheFirstOfSeveralExceptionsAndRunsAllBlocks) {
+    set_thread_count(3);
+    for (int repeat = 0; repeat < 50; ++repeat) {
+        std::atomic<int> visits{0};
+        std::string message;
+        try {
+            parallel_for(200, 1, [&](std::size_t i) {
+                ++visits;
+                if (i % 50 == 31) throw std::runtime_error(std::to_string(i));
+            });
+        } catch (const std::runtime_error& e) {
+            message = e.what();
+        }
+        EXPECT_EQ(message, "31");
+        EXPECT_EQ(visits, 200);
+    }
+    set_thread_count(0);
+}
+
+TEST(Parallel, ALoopInsideALoopVisitsEverything) {
+    set_thread_count(3);
+    std::vector<std::atomic<int>> visits(40 * 30);
+    parallel_for(40, 1, [&](std::size_t i) { parallel_for(30, 1, [&](std::size_t k) { ++visits[i * 30 + k]; }); });
+    for (const auto& count : visits) EXPECT_EQ(count, 1);
+    set_thread_count(0);
+}
+
+TEST(Parallel, TwoCallersAtATimeBothFinish) {
+    set_thread_count(2);
+    std::vector<double> sums(2, 0.0);
+    const auto caller = [&](std::size_t which) {
+        for (int repeat = 0; repeat < 300; ++repeat) {
+            std::vector<double> parts(64, 0.0);
+            parallel_for(parts.size(), 1, [&](std::size_t i) { parts[i] = static_cast<double>(i); });
+            for (const double part : parts) sums[which] += part;
+        }
+    };
+    std::thread other(caller, 1);
+    caller(0);
+    other.join();
+    EXPECT_EQ(sums[0], 300.0 * 64 * 63 / 2);
+    EXPECT_EQ(sums[1], sums[0]);
+    set_thread_count(0);
+}
+
+TEST(Parallel, ManySmallLoopsWithPausesAreAllDone) {
+    // Pauses longer than the team stays awake: threads fall asleep and must wake again.
+    set_thread_count(4);
+    std::atomic<long> total{0};
+    for (int round = 0; round < 2000; ++round) {
+        parallel_for(7, 1, [&](std::size_t i) { total += static_cast<long>(i); });
+        if (round % 100 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    EXPECT_EQ(total, 2000L * 21);
     set_thread_count(0);
 }
