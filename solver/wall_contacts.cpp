@@ -177,7 +177,7 @@ bool collect(const Wall& wall, const NearWall& near, const RelativePose& pose, c
         if (s.hits.size() == 1) {
             if (is_local_minimum(wall.mesh, s.hits[0], c)) add_contact(wall, near, sphere, ball, c, s.hits[0], s);
         } else if (!s.hits.empty()) {
-            keep_contacts(wall.mesh, c, s.hits);
+            keep_contacts(wall.mesh, c, ball.r, s.hits);
             for (const Hit& hit : s.hits) add_contact(wall, near, sphere, ball, c, hit, s);
         }
     }
@@ -304,7 +304,7 @@ void wall_overlaps(const Wall& wall, const Kinematic& body, const BodyTemplate& 
             const Hit hit = closest_point(wall.mesh, f, c);
             if (hit.distance2 < ball.r * ball.r) hits.push_back(hit);
         }
-        keep_contacts(wall.mesh, c, hits);
+        keep_contacts(wall.mesh, c, ball.r, hits);
         for (const Hit& hit : hits) {
             const double distance = std::sqrt(hit.distance2);
             const Vec3 normal = distance > 0.0 ? Vec3((c - hit.point) / distance) : wall.mesh.normals[hit.face];

@@ -176,12 +176,43 @@ void count_t_junctions(WallMesh& wall) {
 }
 
 /// A hit on a border whose point also belongs to a face that comes closer is no minimum: T-junctions and cracks.
-bool lies_on_closer_face(const WallMesh& mesh, const Hit& hit, const std::vector<Hit>& kept) {
+bool lies_on_closer_face(const WallMesh& mesh, const Hit& hit, const std::vector<Hit>& hits) {
     const bool on_border = (hit.kind == FeatureKind::edge && mesh.edges[mesh.edges_of_face[hit.face][hit.corner]].border()) ||
                            (hit.kind == FeatureKind::vertex && mesh.border_vertex[mesh.faces[hit.face][hit.corner]]);
     if (!on_border) return false;
-    return std::any_of(kept.begin(), kept.end(),
-                       [&](const Hit& other) { return closest_point(mesh, other.face, hit.point).distance2 < 1e-14 * mesh.size * mesh.size; });
+    return std::any_of(hits.begin(), hits.end(), [&](const Hit& other) {
+        return other.distance2 < hit.distance2 * (1.0 - 1e-12) && closest_point(mesh, other.face, hit.point).distance2 < 1e-14 * mesh.size * mesh.size;
+    });
+}
+
+/// A local minimum of the distance: one point, although every face that meets there reports it.
+struct Minimum {
+    Hit hit;
+    double distance;
+    Vec3 direction;  ///< unit, from the wall to the centre
+    Vec3 sum;        ///< of its own direction and the weighted ones of the minima merged into it
+};
+
+/// Scratch of keep_contacts.
+struct Minima {
+    std::vector<Minimum> all;
+    std::vector<std::array<std::uint32_t, 2>> patches;  ///< (minimum, patch of one of its faces)
+    std::vector<std::uint32_t> kept;
+
+    bool share_a_patch(std::uint32_t a, std::uint32_t b) const {
+        for (const auto& [m, patch] : patches)
+            if (m == a && std::find(patches.begin(), patches.end(), std::array<std::uint32_t, 2>{b, patch}) != patches.end()) return true;
+        return false;
+    }
+};
+
+/// Share of the shallower minimum b in the direction of the contact whose deepest minimum is a. Two faces that meet in a valley leave their feet at distances
+/// s_a = (d_b - d_a cos) / sin and s_b = (d_a - d_b cos) / sin from the valley; with the share (overlap_b s_b) / (overlap_a s_a) the direction turns
+/// continuously from one face to the other: b enters and leaves with share 0, and both count alike where both are as deep.
+double share_of(double radius, double d_a, double d_b, double cosine) {
+    const double s_a = d_b - d_a * cosine, s_b = d_a - d_b * cosine;
+    if (!(s_a > 0.0 && s_b > 0.0)) return 0.0;
+    return std::min(1.0, (radius - d_b) * s_b / ((radius - d_a) * s_a));
 }
 
 }  // namespace
@@ -264,23 +295,39 @@ bool is_local_minimum(const WallMesh& mesh, const Hit& hit, const Vec3& centre) 
     return true;
 }
 
-void keep_contacts(const WallMesh& mesh, const Vec3& centre, std::vector<Hit>& hits) {
+void keep_contacts(const WallMesh& mesh, const Vec3& centre, double radius, std::vector<Hit>& hits) {
     std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.face < b.face; });
-    thread_local std::vector<Hit> kept;  // scratch
-    kept.clear();
+    thread_local Minima minima;
+    minima.all.clear(), minima.patches.clear(), minima.kept.clear();
     for (const Hit& hit : hits) {
-        if (!is_local_minimum(mesh, hit, centre)) continue;
-        const Vec3 to_centre = centre - hit.point;
-        const bool known = std::any_of(kept.begin(), kept.end(), [&](const Hit& other) {
-            const Vec3 direction = centre - other.point;
-            if ((other.point - hit.point).squaredNorm() < 1e-14 * hit.distance2) return true;
-            return mesh.patch[other.face] == mesh.patch[hit.face] &&
-                   direction.dot(to_centre) > mesh.cos_feature_angle * std::sqrt(direction.squaredNorm() * to_centre.squaredNorm());
-        });
-        if (known || lies_on_closer_face(mesh, hit, kept)) continue;
-        kept.push_back(hit);
+        if (!is_local_minimum(mesh, hit, centre) || lies_on_closer_face(mesh, hit, hits)) continue;
+        std::uint32_t index = 0;
+        while (index < minima.all.size() && !((minima.all[index].hit.point - hit.point).squaredNorm() < 1e-14 * hit.distance2)) ++index;
+        if (index == minima.all.size()) {
+            const double distance = std::sqrt(hit.distance2);
+            const Vec3 direction = distance > 0.0 ? Vec3((centre - hit.point) / distance) : mesh.normals[hit.face];
+            minima.all.push_back({hit, distance, direction, direction});
+        }
+        minima.patches.push_back({index, mesh.patch[hit.face]});
     }
-    hits.assign(kept.begin(), kept.end());
+    for (std::uint32_t b = 0; b < minima.all.size(); ++b) {
+        const Minimum& minimum = minima.all[b];
+        bool merged = false;
+        for (const std::uint32_t a : minima.kept) {
+            Minimum& contact = minima.all[a];
+            const double cosine = contact.direction.dot(minimum.direction);
+            if (!(cosine > mesh.cos_feature_angle) || !minima.share_a_patch(a, b)) continue;
+            contact.sum += share_of(radius, contact.distance, minimum.distance, cosine) * minimum.direction;
+            merged = true;
+        }
+        if (!merged) minima.kept.push_back(b);
+    }
+    hits.clear();
+    for (const std::uint32_t a : minima.kept) {
+        const Minimum& contact = minima.all[a];
+        hits.push_back(contact.hit);
+        if (contact.sum != contact.direction) hits.back().point = centre - contact.sum.normalized() * contact.distance;
+    }
 }
 
 }  // namespace pelletlab::solver::detail

@@ -3,7 +3,9 @@
 // A sphere touches a wall where the distance from its centre to the wall has a local minimum. A hit inside a face always is one; a hit on an
 // edge or a vertex is one only if no face or edge that meets there leads closer to the centre. That drops the false hits at joins: convex edges act
 // within their Voronoi region only, concave and flat ones never twice. Faces whose joins bend by less than the feature angle form one smooth
-// patch; of the minima of one patch whose directions lie within the feature angle of each other only the deepest counts.
+// patch; the minima of one patch whose directions lie within the feature angle of each other are one contact: as deep as the deepest of them, its direction
+// turned towards the others so that the force is continuous. (Every minimum pushing by itself is what makes finely cut drums too stiff in other codes; the
+// deepest alone would turn the force by the bend of the join at once.)
 #pragma once
 
 #include <array>
@@ -70,7 +72,8 @@ bool touches(const WallMesh& mesh, std::uint32_t face, const Vec3& centre, doubl
 /// True when no face or edge that meets at the hit leads closer to the centre.
 bool is_local_minimum(const WallMesh& mesh, const Hit& hit, const Vec3& centre);
 
-/// Of the hits of one sphere, keeps those that are contacts: local minima, deepest first, merged within patches. Works in place.
-void keep_contacts(const WallMesh& mesh, const Vec3& centre, std::vector<Hit>& hits);
+/// Of the hits of one sphere (all faces that it touches), keeps those that are contacts: local minima, deepest first, merged within patches. The point of a
+/// merged contact is where its direction leads at its distance. Works in place.
+void keep_contacts(const WallMesh& mesh, const Vec3& centre, double radius, std::vector<Hit>& hits);
 
 }  // namespace pelletlab::solver::detail

@@ -109,7 +109,7 @@ std::vector<Hit> contacts_of(const WallMesh& wall, const Vec3& centre, double ra
         const Hit hit = closest_point(wall, f, centre);
         if (hit.distance2 < radius * radius) hits.push_back(hit);
     }
-    keep_contacts(wall, centre, hits);
+    keep_contacts(wall, centre, radius, hits);
     return hits;
 }
 

@@ -19,6 +19,31 @@ inline TriangleMesh fold(double bend, double half, double half_length) {
     return mesh;
 }
 
+/// Square plate in z = 0 into which random points are put, each joined to the corners of the triangle that holds it: triangles of all sizes, many of them
+/// slivers. Points that would make a triangle lower than `least_height` are left out.
+inline TriangleMesh random_cut(double half, int points, double least_height, std::uint64_t seed) {
+    TriangleMesh mesh = plate(half);
+    const auto height = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+        return (b - a).cross(c - a).z() / std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    };
+    RandomStream random(seed, 0);
+    for (int k = 0; k < points; ++k) {
+        const Vec3 p(random.uniform(-half, half), random.uniform(-half, half), 0.0);
+        for (Triangle& f : mesh.faces) {
+            const Triangle old = f;
+            const Vec3 &a = mesh.vertices[old[0]], &b = mesh.vertices[old[1]], &c = mesh.vertices[old[2]];
+            if (std::min({height(a, b, p), height(b, c, p), height(c, a, p)}) < least_height) continue;
+            const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+            f = {old[0], old[1], n};
+            mesh.faces.push_back({old[1], old[2], n});
+            mesh.faces.push_back({old[2], old[0], n});
+            mesh.vertices.push_back(p);
+            break;
+        }
+    }
+    return mesh;
+}
+
 /// A plate of n × n cells whose vertices have random heights.
 inline TriangleMesh hills(double half, int n, double height, std::uint64_t seed) {
     TriangleMesh mesh = plate(half, n);
@@ -92,7 +117,7 @@ inline double resting_height(const TriangleMesh& mesh, const Vec3& place, double
         return best;
     };
     double high = 0.01;
-    while (gap(high - 1e-4) > radius) high -= 1e-4;  // from above down to the first place that is near enough
+    while (gap(high - 1e-4) > radius - overlap) high -= 1e-4;  // from above down to the first place that is deep enough
     double low = high - 1e-4;
     for (int k = 0; k < 50; ++k) {
         const double middle = 0.5 * (low + high);

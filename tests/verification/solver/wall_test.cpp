@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "scene.hpp"
+#include "wall_meshes.hpp"
 
 namespace pelletlab::solver {
 namespace {
@@ -36,18 +36,6 @@ double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b
     return most;
 }
 
-/// Triangles in another order, some turned round, corners rotated.
-TriangleMesh shuffled(TriangleMesh mesh, std::uint64_t seed) {
-    RandomStream random(seed, 0);
-    for (std::size_t k = mesh.faces.size(); k > 1; --k)
-        std::swap(mesh.faces[k - 1], mesh.faces[static_cast<std::size_t>(random.uniform() * static_cast<double>(k))]);
-    for (Triangle& f : mesh.faces) {
-        if (random.uniform() < 0.5) std::swap(f[0], f[1]);
-        std::rotate(f.begin(), f.begin() + static_cast<int>(random.uniform() * 3.0), f.end());
-    }
-    return mesh;
-}
-
 class PlanePellets : public testing::TestWithParam<int> {
 protected:
     static RigidTemplate pellet() { return GetParam() == 1 ? scene::sphere_template(1.5e-3, 1800.0) : scene::cylinder_template(3, 8); }
@@ -59,9 +47,9 @@ TEST_P(PlanePellets, TriangulationOfAPlaneDoesNotMatter) {
     for (const Vec3& p : one) height = std::min(height, p.z());
     ASSERT_LT(height, 2.2e-3);  // it did touch
     // Position error 1e-12 m on a path of centimetres after contacts that lose about one digit.
-    EXPECT_LT(largest_difference(one, bounce_path(shuffled(scene::plate(0.05), 5), pellet())), 1e-12);
-    EXPECT_LT(largest_difference(one, bounce_path(shuffled(scene::plate(0.05, 40), 6), pellet())), 1e-12);
-    EXPECT_LT(largest_difference(one, bounce_path(shuffled(scene::plate(0.05, 97), 7), pellet())), 1e-12);  // triangles smaller than spheres
+    EXPECT_LT(largest_difference(one, bounce_path(scene::shuffled(scene::plate(0.05), 5), pellet())), 1e-12);
+    EXPECT_LT(largest_difference(one, bounce_path(scene::shuffled(scene::plate(0.05, 40), 6), pellet())), 1e-12);
+    EXPECT_LT(largest_difference(one, bounce_path(scene::shuffled(scene::plate(0.05, 97), 7), pellet())), 1e-12);  // triangles smaller than spheres
 }
 
 INSTANTIATE_TEST_SUITE_P(Wall, PlanePellets, testing::Values(1, 24));
@@ -73,7 +61,46 @@ TEST(Wall, RandomTriangulationEqualsPlane) {
     for (Vec3& v : mesh.vertices)
         if (std::abs(v.x()) < 0.0499 && std::abs(v.y()) < 0.0499) v += Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 0.0) * 4e-4;
     const RigidTemplate pellet = scene::cylinder_template(3, 8);
-    EXPECT_LT(largest_difference(bounce_path(scene::plate(0.05), pellet), bounce_path(shuffled(mesh, 8), pellet)), 1e-12);
+    EXPECT_LT(largest_difference(bounce_path(scene::plate(0.05), pellet), bounce_path(scene::shuffled(mesh, 8), pellet)), 1e-12);
+}
+
+/// A plane that leans in space, cut at random: points at random places, each put into the triangle that holds it, so that slivers abound.
+TEST(Wall, RandomCutsWithSliversAreTheirPlane) {
+    const Pose lean{{1e-3, -2e-3, 5e-4}, Quat(Eigen::AngleAxisd(0.4, Vec3(3, -1, 2).normalized()))};
+    const auto path_on = [&](const TriangleMesh& mesh, double radius) {
+        SimulationDefinition d;
+        d.templates = {scene::sphere_template(radius, 1800.0)};
+        d.walls = {scene::wall("floor", transformed(mesh, lean), {0.7, 0.5, 0.02})};
+        d.domain = Box(Vec3::Constant(-1.0), Vec3::Constant(1.0));
+        d.gravity = lean.orientation * Vec3(0.5, 0.2, -9.8);
+        Simulation s(d);
+        BodyPlacement b;
+        b.pose.position = lean.to_world({-0.010, 0.004, radius + 2e-4});
+        b.velocity = lean.orientation * Vec3(0.2, -0.1, -0.2);
+        b.spin = {50.0, -30.0, 20.0};
+        s.add_bodies({&b, 1});
+        std::vector<Vec3> path;
+        for (int k = 0; k < 60; ++k) {
+            s.advance(50);
+            path.push_back(s.bodies().position[0]);
+        }
+        return path;
+    };
+    // A sliver's normal is as good as its height is long against the rounding of its corners (1e-17 m): 1e-7 m gives 1e-10 rad, on the length of a
+    // radius less than 1e-12 m. Narrower ones are counted in the wall's report and stay out of this test.
+    const TriangleMesh cut = scene::random_cut(0.05, 3000, 1e-7, 21);
+    const std::size_t slivers = inspect_wall(cut).slivers;
+    EXPECT_GT(slivers, 20u);
+    EXPECT_EQ(inspect_wall(cut).border_edges, 4u);
+    EXPECT_EQ(inspect_wall(cut).patches, 1u);
+    for (const double radius : {5e-4, 2e-3, 1e-2}) {  // as large as the triangles, four times, twenty times
+        const std::vector<Vec3> one = path_on(scene::plate(0.05), radius);
+        const double least = (lean.to_body(*std::min_element(one.begin(), one.end(), [&](const Vec3& p, const Vec3& q) {
+                                 return lean.to_body(p).z() < lean.to_body(q).z();
+                             }))).z();
+        ASSERT_LT(least, radius);  // it did touch
+        EXPECT_LT(largest_difference(one, path_on(scene::shuffled(cut, 3), radius)), 1e-12) << radius;
+    }
 }
 
 TEST(Wall, RollingOverSeamsOfARefinedPlaneKeepsTheHistory) {
@@ -108,37 +135,6 @@ TEST(Wall, CornersOfABoxPushTwiceOrThrice) {
     std::vector<int> count(3, 0);
     for (const ContactPoint& c : s.contact_points()) ++count[c.body_i];
     EXPECT_EQ(count, (std::vector<int>{1, 2, 3}));
-}
-
-TEST(Wall, ConvexEdgePassesContactOverWithoutJumpOrDoubling) {
-    // A sphere is moved round the outside of a box edge; force must change continuously with its place, and there is one contact all the way.
-    const double r = 2e-3, overlap = 2e-5;
-    SimulationDefinition d;
-    d.templates = {scene::sphere_template(r, 2000.0)};
-    d.walls = {scene::wall("box", scene::box(Vec3::Constant(-0.02), Vec3::Zero()), {1.0, 0.0, 0.0})};
-    d.domain = Box(Vec3::Constant(-1), Vec3::Constant(1));
-    d.gravity = Vec3::Zero();
-    Vec3 last = Vec3::Zero();
-    double largest_step = 0.0, force_size = 0.0;
-    const int n = 240;
-    for (int k = 0; k <= n; ++k) {
-        const double u = -1.0 + 3.0 * k / n;  // −1…0 on the upper face, 0…1 round the edge, 1…2 down the side
-        Vec3 centre = Vec3(0.0, -0.01, r - overlap);
-        if (u < 0.0) centre.x() = u * 2e-3;
-        if (u >= 0.0 && u <= 1.0) centre = Vec3(std::sin(0.5 * M_PI * u), 0.0, std::cos(0.5 * M_PI * u)) * (r - overlap) + Vec3(0, -0.01, 0);
-        if (u > 1.0) centre = Vec3(r - overlap, -0.01, -(u - 1.0) * 2e-3);
-        Simulation s(d);
-        BodyPlacement b;
-        b.pose.position = centre;
-        s.add_bodies({&b, 1});
-        EXPECT_EQ(s.contacts().wall_contacts, 1u) << u;
-        const Vec3 force = s.bodies().force[0];
-        force_size = force.norm();
-        if (k > 0) largest_step = std::max(largest_step, (force - last).norm());
-        last = force;
-    }
-    EXPECT_GT(force_size, 0.0);
-    EXPECT_LT(largest_step, 1.05 * 0.5 * M_PI * 3.0 / n * force_size);  // the direction turns by at most this between two places
 }
 
 /// Fraction of places on the inside of a drum where the force differs from that of one facet by more than a little.
