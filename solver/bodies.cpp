@@ -65,10 +65,24 @@ void Bodies::resize(std::size_t n) {
     const std::size_t padded = padded_count(n);
     for (std::size_t i = n; i < count_; ++i) set_numbers(i, {});  // the padding holds zeros
     for (std::size_t i = n; i < count_; ++i) template_index_[i] = 0;
+    for (std::size_t i = count_; i < n; ++i) id_.push_back(static_cast<std::uint32_t>(i)), place_of_.push_back(static_cast<std::uint32_t>(i));
+    id_.resize(n), place_of_.resize(n);
     count_ = n;
     template_index_.resize(padded, 0);
     each_column(*this, [padded](std::vector<double>& c) { c.resize(padded, 0.0); });
     for (auto& c : reference_) c.resize(padded, 0.0);
+}
+
+void Bodies::reorder(const std::vector<std::uint32_t>& order) {
+    const auto move = [&](auto& column) {
+        auto old = column;
+        for (std::size_t k = 0; k < count_; ++k) column[k] = old[order[k]];
+    };
+    each_column(*this, move);
+    for (auto& c : reference_) move(c);
+    move(template_index_);
+    move(id_);
+    for (std::size_t k = 0; k < count_; ++k) place_of_[id_[k]] = static_cast<std::uint32_t>(k);
 }
 
 void Bodies::mark_reference() {

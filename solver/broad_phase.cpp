@@ -74,6 +74,7 @@ NeighbourRows find_neighbours(const Bodies& bodies, const std::vector<BodyTempla
         for (std::size_t i = begin; i < end; ++i) {
             const std::size_t start = list.size();
             const Vec3 p = bodies.position(i);
+            const std::uint32_t id = bodies.id(i);
             const double reach = templates[bodies.template_of(i)].bounding_radius + skin;
             const auto c = grid.cell_of(p);
             for (std::int64_t z = std::max<std::int64_t>(c[2] - 1, 0); z <= std::min(c[2] + 1, grid.count[2] - 1); ++z) {
@@ -83,13 +84,14 @@ NeighbourRows find_neighbours(const Bodies& bodies, const std::vector<BodyTempla
                     const std::size_t to = grid.index({std::min(c[0] + 1, grid.count[0] - 1), y, z});
                     for (std::uint32_t m = grid.first[from]; m < grid.first[to + 1]; ++m) {
                         const std::uint32_t j = grid.member[m];
-                        if (j <= i) continue;
+                        if (bodies.id(j) <= id) continue;
                         const double distance = reach + templates[bodies.template_of(j)].bounding_radius;
                         if ((bodies.position(j) - p).squaredNorm() < distance * distance) list.push_back(j);
                     }
                 }
             }
-            std::sort(list.begin() + static_cast<std::ptrdiff_t>(start), list.end());
+            std::sort(list.begin() + static_cast<std::ptrdiff_t>(start), list.end(),
+                      [&](std::uint32_t a, std::uint32_t b) { return bodies.id(a) < bodies.id(b); });
             rows.first[i + 1] = static_cast<std::uint32_t>(list.size() - start);
         }
     });

@@ -128,22 +128,20 @@ std::vector<char> payload_of(const Simulation::State& s) {
     Writer w;
     w.put(s.steps);
     w.put(static_cast<std::uint64_t>(s.bodies.size()));
-    for (std::size_t i = 0; i < s.bodies.size(); ++i) {
-        w.put(s.bodies.template_of(i));
-        w.put(s.bodies.numbers(i));
+    for (std::size_t id = 0; id < s.bodies.size(); ++id) {
+        w.put(s.bodies.template_of(s.bodies.place_of(id)));
+        w.put(s.bodies.numbers(s.bodies.place_of(id)));
     }
     std::vector<SavedSpring> springs;
-    for (std::size_t k = 0; k < s.pairs.records.size(); ++k) {
-        const detail::PairRecord& r = s.pairs.records[k];
-        const detail::PairBlock& block = s.pairs.blocks[s.pairs.block_of_body[s.pairs.records[k].i]];
+    detail::for_each_record(s.pairs, s.bodies, [&](const detail::PairRecord& r, const detail::PairBlock& block) {
         for (std::size_t c = r.first; c < r.first + std::size_t{r.count}; ++c)
             if (block.candidates[c].touching())
-                springs.push_back({r.i,
-                                   r.j,
+                springs.push_back({s.bodies.id(r.i),
+                                   s.bodies.id(r.j),
                                    block.candidates[c].sphere_a(),
                                    block.candidates[c].b,
                                    {block.springs[c].row[0], block.springs[c].row[1], block.springs[c].row[2]}});
-    }
+    });
     w.put(static_cast<std::uint64_t>(springs.size()));
     for (const SavedSpring& spring : springs) w.put(spring);
     w.put(static_cast<std::uint64_t>(s.walls.size()));
@@ -156,10 +154,11 @@ std::vector<char> payload_of(const Simulation::State& s) {
         std::uint64_t count = 0;
         for (const detail::WallWatch& watch : wall.watches) count += watch.near ? watch.near->history.size() : 0;
         w.put(count);
-        for (std::size_t i = 0; i < wall.watches.size(); ++i) {
+        for (std::uint32_t id = 0; id < wall.watches.size(); ++id) {
+            const std::size_t i = s.bodies.place_of(id);
             if (!wall.watches[i].near) continue;
             for (const detail::WallHistory& h : wall.watches[i].near->history) {
-                w.put(static_cast<std::uint32_t>(i)), w.put(h.sphere), w.put(h.patch);
+                w.put(id), w.put(h.sphere), w.put(h.patch);
                 w.put(h.normal), w.put(h.spring);
             }
         }
@@ -216,24 +215,23 @@ Saved read_payload(const std::vector<char>& bytes, const std::string& file, cons
 /// Puts the springs back into freshly found candidates. False when one has no place.
 bool install(Simulation::State& s, const Saved& saved) {
     std::size_t next = 0;
-    for (std::size_t k = 0; k < s.pairs.records.size(); ++k) {
-        detail::PairRecord& record = s.pairs.records[k];
-        detail::PairBlock& block = s.pairs.blocks[s.pairs.block_of_body[s.pairs.records[k].i]];
-        if (next == saved.springs.size() || saved.springs[next].i != record.i || saved.springs[next].j != record.j) continue;
+    detail::for_each_record(s.pairs, s.bodies, [&](detail::PairRecord& record, detail::PairBlock& block) {
+        const std::uint32_t i = s.bodies.id(record.i), j = s.bodies.id(record.j);
+        if (next == saved.springs.size() || saved.springs[next].i != i || saved.springs[next].j != j) return;
         detail::refresh_candidates(block, record, s.templates[s.bodies.template_of(record.i)], s.templates[s.bodies.template_of(record.j)],
                                    detail::relative_pose(s.kinematics[record.i], s.kinematics[record.j]), s.pairs.pair_skin,
                                    static_cast<std::uint32_t>(s.steps));
         for (std::size_t c = record.first; c < record.first + std::size_t{record.count} && next < saved.springs.size(); ++c) {
             const SavedSpring& spring = saved.springs[next];
-            if (spring.i != record.i || spring.j != record.j || block.candidates[c].key() != ((spring.a << 16) | spring.b)) continue;
+            if (spring.i != i || spring.j != j || block.candidates[c].key() != ((spring.a << 16) | spring.b)) continue;
             block.springs[c] = {{spring.spring[0], spring.spring[1], spring.spring[2], 0.0}};
             block.candidates[c].a |= detail::Candidate::touching_bit;
             ++next;
         }
-    }
+    });
     for (std::size_t k = 0; k < s.walls.size(); ++k)
         for (const SavedHistory& h : saved.walls[k].history) {
-            detail::WallWatch& watch = s.walls[k].watches[h.body];
+            detail::WallWatch& watch = s.walls[k].watches[s.bodies.place_of(h.body)];
             if (!watch.near) watch.near = std::make_unique<detail::NearWall>();
             watch.near->history.push_back({h.sphere, h.patch, h.normal, h.spring});
         }
@@ -301,7 +299,11 @@ void Simulation::load_checkpoint(const std::filesystem::path& file) {
     detail::PairList fresh;
     fresh.skin = s.pairs.skin, fresh.pair_skin = s.pairs.pair_skin;
     s.pairs = std::move(fresh);
+    s.kinematics.resize(detail::padded_count(s.bodies.size()));
+    for (detail::Wall& wall : s.walls) wall.watches.resize(s.bodies.size()), wall.loads.resize(s.bodies.size()), wall.touching.resize(s.bodies.size());
+    s.order_bodies();
     s.fit_to_body_count();
+    s.pairs.ordered_spread = s.pairs.spread;
     for (std::size_t i = 0; i < s.bodies.size(); ++i) detail::fill_record(s.bodies, s.templates[s.bodies.template_of(i)], i, s.kinematics[i]);
     s.view_is_current = false;
     if (!install(s, saved)) throw bad_input("the checkpoint holds contacts of spheres that are far apart", "it is damaged: use an older one", {file.string()});

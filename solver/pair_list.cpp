@@ -154,6 +154,7 @@ void rebuild_pairs(PairList& list, Bodies& bodies, const std::vector<BodyTemplat
     old.records = std::move(list.records);
     old.blocks = std::move(list.blocks);
     old.block_of_body = std::move(list.block_of_body);
+    old.place_of_id = std::move(list.place_of_id);
     list.rows = find_neighbours(bodies, templates, list.skin);
     const std::size_t n = bodies.size(), pair_count = list.rows.partner.size();
     list.records.assign(pair_count, PairRecord{{0, 0, 0, 1, 0, 0, 0, -1}, 0, 0, 0, 0, 0, 0, 0, 0.0f, 0});
@@ -169,13 +170,13 @@ void rebuild_pairs(PairList& list, Bodies& bodies, const std::vector<BodyTemplat
                 PairRecord& record = list.records[k];
                 record.i = i;
                 record.j = list.rows.partner[k];
-                if (i + 1 < old.rows.first.size()) {
-                    const auto from = old.rows.partner.begin() + old.rows.first[i], to = old.rows.partner.begin() + old.rows.first[i + 1];
-                    const auto found = std::lower_bound(from, to, record.j);
-                    if (found != to && *found == record.j) {
-                        const auto before = static_cast<std::size_t>(found - old.rows.partner.begin());
-                        carry_over(old.blocks[old.block_of_body[i]], old.records[before], block, record);
-                    }
+                const std::uint32_t id_i = bodies.id(i), id_j = bodies.id(record.j);
+                if (id_i < old.place_of_id.size() && id_j < old.place_of_id.size()) {
+                    const std::uint32_t old_i = old.place_of_id[id_i], old_j = old.place_of_id[id_j];
+                    for (std::uint32_t before = old.rows.first[old_i]; before < old.rows.first[old_i + 1]; ++before)
+                        if (old.rows.partner[before] == old_j) carry_over(old.blocks[old.block_of_body[old_i]], old.records[before], block, record);
+                    record.i = i;
+                    record.j = list.rows.partner[k];
                 }
                 record.template_i = static_cast<std::uint16_t>(bodies.template_of(record.i));
                 record.template_j = static_cast<std::uint16_t>(bodies.template_of(record.j));
@@ -187,7 +188,16 @@ void rebuild_pairs(PairList& list, Bodies& bodies, const std::vector<BodyTemplat
     for (std::size_t j = 0; j < n; ++j) list.incoming_first[j + 1] += list.incoming_first[j];
     list.incoming.resize(pair_count);
     std::vector<std::uint32_t> next(list.incoming_first.begin(), list.incoming_first.end() - 1);
-    for (std::size_t k = 0; k < pair_count; ++k) list.incoming[next[list.rows.partner[k]]++] = static_cast<std::uint32_t>(k);
+    list.place_of_id.resize(n);
+    for (std::size_t id = 0; id < n; ++id) {
+        const std::uint32_t i = list.place_of_id[id] = bodies.place_of(id);
+        for (std::uint32_t k = list.rows.first[i]; k < list.rows.first[i + 1]; ++k) list.incoming[next[list.rows.partner[k]]++] = k;
+    }
+
+    list.spread = 0.0;
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::uint32_t k = list.rows.first[i]; k < list.rows.first[i + 1]; ++k)
+            list.spread += std::abs(static_cast<double>(i) - static_cast<double>(list.rows.partner[k])) / static_cast<double>(pair_count);
 
     bodies.mark_reference();
     list.body_count = n;

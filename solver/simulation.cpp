@@ -170,14 +170,14 @@ void Simulation::add_bodies(std::span<const BodyPlacement> added) {
     s.fit_to_body_count();
     for (std::size_t i = 0; i < n; ++i) detail::fill_record(s.bodies, s.templates[s.bodies.template_of(i)], i, s.kinematics[i]);
 
-    for (const detail::PairRecord& pair : s.pairs.records) {
-        if (pair.j < before) continue;
+    for (const detail::PairRecord& pair : s.pairs.records) {  // new bodies lie behind the others until all is checked
+        if (pair.i < before && pair.j < before) continue;
         const double ratio =
             deepest_overlap(s.kinematics[pair.i], s.templates[s.bodies.template_of(pair.i)], s.kinematics[pair.j], s.templates[s.bodies.template_of(pair.j)]);
         if (ratio <= overlap_allowed_at_start) continue;
         std::ostringstream text;
-        text << "bodies " << pair.i << " and " << pair.j << " overlap by " << 100.0 * ratio << " % of their smallest sphere's radius, near "
-             << place(s.bodies.position(pair.j));
+        text << "bodies " << s.bodies.id(pair.i) << " and " << s.bodies.id(pair.j) << " overlap by " << 100.0 * ratio
+             << " % of their smallest sphere's radius, near " << place(s.bodies.position(pair.j));
         shrink(before);
         throw bad_input(text.str(), "place bodies apart: at most 5 % is allowed");
     }
@@ -197,6 +197,9 @@ void Simulation::add_bodies(std::span<const BodyPlacement> added) {
                 throw bad_input(text.str(), "place bodies apart: at most 5 % is allowed");
             }
         }
+    s.order_bodies();
+    detail::rebuild_pairs(s.pairs, s.bodies, s.templates);
+    s.pairs.ordered_spread = s.pairs.spread;
     s.look_at_forces();
 }
 
@@ -230,14 +233,15 @@ const BodyState& Simulation::bodies() const {
         BodyState& v = s.view;
         v.template_index.resize(n), v.position.resize(n), v.orientation.resize(n), v.velocity.resize(n), v.spin.resize(n), v.force.resize(n),
             v.torque.resize(n);
-        for (std::size_t i = 0; i < n; ++i) {
-            v.template_index[i] = s.bodies.template_of(i);
-            v.position[i] = s.bodies.position(i);
-            v.orientation[i] = s.bodies.orientation(i);
-            v.velocity[i] = s.bodies.velocity(i);
-            v.spin[i] = detail::spin_of(s.templates[s.bodies.template_of(i)], v.orientation[i], s.bodies.angular_momentum(i));
-            v.force[i] = s.bodies.force(i);
-            v.torque[i] = s.bodies.torque(i);
+        for (std::size_t id = 0; id < n; ++id) {
+            const std::size_t i = s.bodies.place_of(id);
+            v.template_index[id] = s.bodies.template_of(i);
+            v.position[id] = s.bodies.position(i);
+            v.orientation[id] = s.bodies.orientation(i);
+            v.velocity[id] = s.bodies.velocity(i);
+            v.spin[id] = detail::spin_of(s.templates[s.bodies.template_of(i)], v.orientation[id], s.bodies.angular_momentum(i));
+            v.force[id] = s.bodies.force(i);
+            v.torque[id] = s.bodies.torque(i);
         }
         s.view_is_current = true;
     }
@@ -298,9 +302,7 @@ std::vector<StageTime> Simulation::stage_times() const {
 std::vector<ContactPoint> Simulation::contact_points() const {
     const State& s = *state_;
     std::vector<ContactPoint> points;
-    for (std::size_t k = 0; k < s.pairs.records.size(); ++k) {
-        const detail::PairRecord& r = s.pairs.records[k];
-        const detail::PairBlock& block = s.pairs.blocks[s.pairs.block_of_body[s.pairs.records[k].i]];
+    detail::for_each_record(s.pairs, s.bodies, [&](const detail::PairRecord& r, const detail::PairBlock& block) {
         const Pose pi{s.bodies.position(r.i), s.bodies.orientation(r.i)}, pj{s.bodies.position(r.j), s.bodies.orientation(r.j)};
         const auto &ti = s.templates[s.bodies.template_of(r.i)], &tj = s.templates[s.bodies.template_of(r.j)];
         for (std::size_t c = r.first; c < r.first + std::size_t{r.count}; ++c) {
@@ -310,19 +312,20 @@ std::vector<ContactPoint> Simulation::contact_points() const {
             const double overlap = a.r + b.r - d.norm();
             if (overlap <= 0.0) continue;
             const detail::Spring& spring = block.springs[c];
-            points.push_back(
-                {r.i, candidate.sphere_a(), -1, r.j, candidate.b, d.normalized(), overlap, pi.orientation * Vec3(spring.row[0], spring.row[1], spring.row[2])});
+            points.push_back({s.bodies.id(r.i), candidate.sphere_a(), -1, s.bodies.id(r.j), candidate.b, d.normalized(), overlap,
+                              pi.orientation * Vec3(spring.row[0], spring.row[1], spring.row[2])});
         }
-    }
+    });
     std::vector<detail::WallOverlap> overlaps;
     for (std::size_t w = 0; w < s.walls.size(); ++w)
-        for (std::uint32_t i = 0; i < s.bodies.size(); ++i) {
+        for (std::uint32_t id = 0; id < s.bodies.size(); ++id) {
+            const std::uint32_t i = s.bodies.place_of(id);
             const detail::WallWatch& watch = s.walls[w].watches[i];
             if (!watch.near) continue;
             overlaps.clear();
             detail::wall_overlaps(s.walls[w], s.kinematics[i], s.templates[s.bodies.template_of(i)], overlaps);
             for (const detail::WallOverlap& o : overlaps) {
-                ContactPoint point{i, o.sphere, static_cast<std::int32_t>(w), 0, 0, s.walls[w].pose.orientation * o.normal, o.overlap, Vec3::Zero()};
+                ContactPoint point{id, o.sphere, static_cast<std::int32_t>(w), 0, 0, s.walls[w].pose.orientation * o.normal, o.overlap, Vec3::Zero()};
                 for (const detail::WallHistory& h : watch.near->history)
                     if (h.sphere == o.sphere && h.patch == o.patch && h.normal.dot(o.normal) > 0.999) point.spring = s.walls[w].pose.orientation * h.spring;
                 points.push_back(point);
@@ -336,13 +339,13 @@ ContactSummary Simulation::contacts() const {
     ContactSummary sum;
     std::uint64_t last_pair = UINT64_MAX;
     for (const ContactPoint& c : contact_points()) {
-        const auto& ti = s.templates[s.bodies.template_of(c.body_i)];
+        const auto& ti = s.templates[s.bodies.template_of(s.bodies.place_of(c.body_i))];
         double radius = ti.balls[c.sphere_i].r;
         if (c.wall >= 0) {
             ++sum.wall_contacts;
         } else {
             ++sum.sphere_contacts;
-            radius = std::min(radius, s.templates[s.bodies.template_of(c.body_j)].balls[c.sphere_j].r);
+            radius = std::min(radius, s.templates[s.bodies.template_of(s.bodies.place_of(c.body_j))].balls[c.sphere_j].r);
             const std::uint64_t pair = (std::uint64_t{c.body_i} << 32) | c.body_j;
             if (pair != last_pair) ++sum.touching_pairs;
             last_pair = pair;
@@ -355,7 +358,8 @@ ContactSummary Simulation::contacts() const {
 EnergyReport Simulation::energy() const {
     const State& s = *state_;
     EnergyReport e;
-    for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    for (std::size_t id = 0; id < s.bodies.size(); ++id) {
+        const std::size_t i = s.bodies.place_of(id);
         const detail::BodyTemplate& t = s.templates[s.bodies.template_of(i)];
         const Vec3 l = s.bodies.angular_momentum(i);
         e.kinetic_translation += 0.5 * t.mass * s.bodies.velocity(i).squaredNorm();
@@ -369,20 +373,19 @@ std::uint64_t Simulation::state_hash() const {
     const State& s = *state_;
     detail::Hash hash;
     hash.add(s.steps);
-    for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+    for (std::size_t id = 0; id < s.bodies.size(); ++id) {
+        const std::size_t i = s.bodies.place_of(id);
         hash.add(std::uint64_t{s.bodies.template_of(i)});
         for (const double x : s.bodies.numbers(i)) hash.add(x);
     }
-    for (std::size_t k = 0; k < s.pairs.records.size(); ++k) {
-        const detail::PairRecord& r = s.pairs.records[k];
-        const detail::PairBlock& block = s.pairs.blocks[s.pairs.block_of_body[s.pairs.records[k].i]];
+    detail::for_each_record(s.pairs, s.bodies, [&](const detail::PairRecord& r, const detail::PairBlock& block) {
         for (std::size_t c = r.first; c < r.first + std::size_t{r.count}; ++c) {
             if (!block.candidates[c].touching()) continue;
-            hash.add((std::uint64_t{r.i} << 32) | r.j);
+            hash.add((std::uint64_t{s.bodies.id(r.i)} << 32) | s.bodies.id(r.j));
             hash.add(std::uint64_t{block.candidates[c].key()});
             for (const double x : block.springs[c].row) hash.add(x);
         }
-    }
+    });
     for (const detail::Wall& wall : s.walls) {
         hash.add(wall.pose.position);
         hash.add(wall.pose.orientation);
@@ -390,10 +393,11 @@ std::uint64_t Simulation::state_hash() const {
         hash.add(wall.motion.axis);
         hash.add(wall.motion.rotation_speed);
         hash.add(wall.motion.velocity);
-        for (std::size_t i = 0; i < wall.watches.size(); ++i) {
+        for (std::size_t id = 0; id < wall.watches.size(); ++id) {
+            const std::size_t i = s.bodies.place_of(id);
             if (!wall.watches[i].near) continue;
             for (const detail::WallHistory& h : wall.watches[i].near->history) {
-                hash.add((std::uint64_t{i} << 32) | h.sphere);
+                hash.add((std::uint64_t{id} << 32) | h.sphere);
                 hash.add(std::uint64_t{h.patch});
                 hash.add(h.normal);
                 hash.add(h.spring);

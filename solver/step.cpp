@@ -62,7 +62,7 @@ namespace {
 Error lost_body(const Simulation::State& s, std::size_t i) {
     const Vec3 p = s.bodies.position(i), v = s.bodies.velocity(i);
     std::ostringstream text;
-    text << "body " << i;
+    text << "body " << s.bodies.id(i);
     if (p.allFinite() && s.bodies.angular_momentum(i).allFinite()) {
         text << " left the domain at (" << p.x() << ", " << p.y() << ", " << p.z() << ") m with a speed of " << v.norm() << " m/s";
     } else {
@@ -108,7 +108,11 @@ void Simulation::State::move_walls() {
 }
 
 void Simulation::State::find_neighbours_if_needed(double furthest2) {
-    if (furthest2 > 0.25 * pairs.skin * pairs.skin) detail::rebuild_pairs(pairs, bodies, templates);
+    if (!(furthest2 > 0.25 * pairs.skin * pairs.skin)) return;
+    const bool scattered = pairs.spread > 1.25 * pairs.ordered_spread;
+    if (scattered) order_bodies();
+    detail::rebuild_pairs(pairs, bodies, templates);
+    if (scattered) pairs.ordered_spread = pairs.spread;
 }
 
 void Simulation::State::compute_pair_forces(const detail::StepClock& clock) {
@@ -145,7 +149,8 @@ void Simulation::State::sum_wall_loads() {
             bodies.size(), 4 * body_grain, WallLoad{},
             [&](std::size_t begin, std::size_t end) {
                 WallLoad part;
-                for (std::size_t i = begin; i < end; ++i) {
+                for (std::size_t id = begin; id < end; ++id) {
+                    const std::size_t i = bodies.place_of(id);
                     if (!wall.touching[i]) continue;
                     const Vec3 force(wall.loads[i].force()[0], wall.loads[i].force()[1], wall.loads[i].force()[2]);
                     part.force -= force;

@@ -38,6 +38,12 @@ public:
     std::size_t size() const { return count_; }
     void resize(std::size_t n);
 
+    /// A body's id is the order in which it was added; where it lies in memory may change (body_order.hpp). Everything else here takes the place.
+    std::uint32_t id(std::size_t i) const { return id_[i]; }
+    std::uint32_t place_of(std::size_t id) const { return place_of_[id]; }
+    /// Moves the body at place order[k] to place k.
+    void reorder(const std::vector<std::uint32_t>& order);
+
     std::uint32_t template_of(std::size_t i) const { return template_index_[i]; }
     Vec3 position(std::size_t i) const { return get(position_, i); }
     Quat orientation(std::size_t i) const { return {turn_[0][i], turn_[1][i], turn_[2][i], turn_[3][i]}; }
@@ -67,7 +73,7 @@ private:
     template <std::size_t N>
     using Columns = std::array<std::vector<double>, N>;
     std::size_t count_ = 0;
-    std::vector<std::uint32_t> template_index_;
+    std::vector<std::uint32_t> template_index_, id_, place_of_;
     Columns<3> position_, velocity_, momentum_, force_, torque_, reference_;
     Columns<4> turn_;
 

@@ -8,7 +8,7 @@
 
 namespace pelletlab::solver::detail {
 
-/// Compressed rows: partners of body i are partner[first[i]] … partner[first[i + 1] − 1], all larger than i, ascending.
+/// Compressed rows: partners of body i are partner[first[i]] … partner[first[i + 1] − 1]: those with larger ids, ascending by id.
 struct NeighbourRows {
     std::vector<std::uint32_t> first{0};
     std::vector<std::uint32_t> partner;

@@ -26,22 +26,34 @@ struct PairBlock {
 
 struct PairList {
     NeighbourRows rows;
-    std::vector<PairRecord> records;  ///< sorted by (i, j)
+    std::vector<PairRecord> records;  ///< by the place of i, then the id of j; i is the one with the smaller id
     std::vector<PairBlock> blocks;    ///< in the order of bodies and pairs
     std::vector<std::uint32_t> block_of_body;
     std::vector<LoadRow> loads_j;  ///< per pair: what the second body feels, world; valid where touching
     std::vector<std::uint8_t> touching;
     std::vector<LoadRow> own_loads;  ///< per body: what it feels from the pairs in which it is the first; valid where own_touching
     std::vector<std::uint8_t> own_touching;
-    std::vector<std::uint32_t> incoming_first, incoming;  ///< for body j: the records in which it is the second one
+    std::vector<std::uint32_t> incoming_first, incoming;  ///< for body j: the records in which it is the second one, by the id of i
+    std::vector<std::uint32_t> place_of_id;               ///< where bodies lay at the last rebuild
     std::size_t body_count = 0;                           ///< at the last rebuild
     double skin = 0.0;                                    ///< [m], of the body list
     double pair_skin = 0.0;                               ///< [m], usual one of candidate lists
     std::uint64_t rebuilds = 0;
+    double spread = 0.0;          ///< mean distance in memory between the bodies of a pair
+    double ordered_spread = 0.0;  ///< the same just after bodies were put in order
 };
 
 /// Makes the list anew and marks the bodies' reference positions; candidates and history of pairs that stay are carried over.
 void rebuild_pairs(PairList& list, Bodies& bodies, const std::vector<BodyTemplate>& templates);
+
+/// Calls visit(record, its block) for all pairs, by the id of i, then of j: an order that does not depend on where bodies lie.
+template <class List, class Visit>
+void for_each_record(List& list, const Bodies& bodies, const Visit& visit) {
+    for (std::size_t id = 0; id < list.body_count; ++id) {
+        const std::uint32_t i = bodies.place_of(id);
+        for (std::uint32_t k = list.rows.first[i]; k < list.rows.first[i + 1]; ++k) visit(list.records[k], list.blocks[list.block_of_body[i]]);
+    }
+}
 
 /// Pose of j in the frame of i.
 struct RelativePose {

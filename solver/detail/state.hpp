@@ -56,6 +56,8 @@ struct Simulation::State {
     /// Forces and torques at the present instant, springs untouched: after bodies were added.
     void look_at_forces();
     void fit_to_body_count();
+    /// Lays bodies and what walls keep of them along the curve of body_order.hpp; the pair list must be rebuilt afterwards.
+    void order_bodies();
 };
 
 namespace detail {
