@@ -1,17 +1,24 @@
 #include "shapegen/fit.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "meshes/mass_properties.hpp"
 #include "shapegen/detail/body_frame.hpp"
+#include "shapegen/detail/contact_limit.hpp"
+#include "shapegen/detail/feature_edges.hpp"
 #include "shapegen/detail/match_moments.hpp"
+#include "shapegen/detail/modes.hpp"
+#include "shapegen/detail/one_sided.hpp"
 #include "shapegen/detail/relocation.hpp"
 #include "shapegen/detail/seeding.hpp"
 #include "shapegen/detail/settle.hpp"
 #include "shapegen/detail/surface_samples.hpp"
 #include "shapegen/detail/symmetric_loss.hpp"
+#include "shapegen/detail/symmetric_search.hpp"
 
 namespace pelletlab::shapegen {
 
@@ -53,6 +60,12 @@ void check(const FitSettings& settings, const Body& body) {
     if (settings.min_radius >= 0.5 * body.smallest_extent * body.frame.length) {
         throw bad_input("the minimum radius is larger than the body", "choose one below half the smallest extent of the mesh");
     }
+    if (!(settings.poke_out >= 0.0)) throw bad_input("the allowed poke-out is negative or not a number", "give 0 or a positive length");
+    if (!(settings.press >= 0.0))
+        throw bad_input("the depth of the pressed plane is negative or not a number", "give 0 for the usual one, or a positive length");
+    if (settings.mode == FitMode::outside && settings.most_contacts > 0) {
+        throw bad_input("a clump that covers its body cannot hold spheres back from a plane", "leave out the limit of contacts, or choose another mode");
+    }
     if (!(settings.effort >= 0.0)) throw bad_input("the effort is negative or not a number", "give 1 for the usual search, 0 for none");
 }
 
@@ -61,40 +74,132 @@ double expected_gap(std::size_t spheres) {
     return 0.019 * std::pow(24.0 / static_cast<double>(spheres), 0.68);
 }
 
-SampleBlocks samples_of(const Body& body, std::size_t count, std::uint64_t seed) {
-    return make_blocks(sample_surface(body.mesh, count, seed));
+// Samples of the part of the surface that the symmetry repeats; with the sharp edges, where the largest distances are, if wanted.
+SampleBlocks samples_of(const Body& body, std::size_t count, std::uint64_t seed, const SymmetryGroup& group, bool edges = false) {
+    SurfaceSamples samples = sample_surface(body.mesh, count, seed);
+    if (edges) add_edge_points(samples, body.mesh, std::numbers::pi / 6.0, std::sqrt(samples.area / static_cast<double>(count)));
+    if (group.elements.size() > 1) {
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < samples.points.size(); ++k) {
+            if (!group.in_domain(samples.points[k])) continue;
+            samples.points[kept] = samples.points[k];
+            samples.normals[kept++] = samples.normals[k];
+        }
+        samples.points.resize(kept);
+        samples.normals.resize(kept);
+    }
+    return make_blocks(std::move(samples));
 }
+
+auto mode_stage(FitMode mode) {
+    switch (mode) {
+        case FitMode::minimax:
+            return fit_minimax;
+        case FitMode::inside:
+            return fit_inside;
+        case FitMode::outside:
+            return fit_outside;
+        case FitMode::flat:
+            return fit_flat;
+        case FitMode::mean:
+            break;
+    }
+    return fit_mean;
+}
+
+// Numbers near n that whole orbits make up, for the remedy of an error.
+std::string numbers_near(const SymmetryGroup& group, std::uint32_t n) {
+    std::uint32_t below = n, above = n;
+    while (below > 0 && !group.can_hold(below)) --below;
+    while (above < most_spheres && !group.can_hold(above)) ++above;
+    return (below > 0 ? std::to_string(below) + " or " : std::string()) + std::to_string(above);
+}
+
+// The symmetry to impose: what was asked for, or as much of the body's own as the number of spheres allows.
+Symmetry chosen_symmetry(const TriangleMesh& mesh, const meshes::SignedDistance& exact, const FitSettings& settings) {
+    if (settings.symmetry_choice == SymmetryChoice::none) return {};
+    if (settings.symmetry_choice == SymmetryChoice::given) {
+        const SymmetryGroup group = SymmetryGroup::of(settings.symmetry);
+        if (!group.can_hold(settings.sphere_count)) {
+            throw bad_input("no clump of " + std::to_string(settings.sphere_count) + " spheres has the symmetry " + describe(settings.symmetry),
+                            "ask for " + numbers_near(group, settings.sphere_count) + " spheres, or for less symmetry");
+        }
+        return settings.symmetry;
+    }
+    Symmetry symmetry = symmetry_for(find_symmetry(mesh, exact), settings.sphere_count);
+    while (!SymmetryGroup::of(symmetry).can_hold(settings.sphere_count)) {
+        if (!symmetry.mirrors.empty()) {
+            symmetry.mirrors.pop_back();
+        } else {
+            std::uint32_t part = 2;  // the smallest divisor leaves the largest subgroup
+            while (symmetry.fold % part != 0) ++part;
+            symmetry.fold /= part;
+        }
+    }
+    return symmetry;
+}
+
+class Clock {
+public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+        return seconds;
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
 
 }  // namespace
 
-FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& distance, const FitSettings& settings, const ProgressSink& progress) {
-    const auto tell = [&](const char* stage, double done, double total) {
-        if (progress) progress({stage, done, total, "", 0.0, "", ""});
+FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& search, const meshes::SignedDistance& exact, const FitSettings& settings,
+                      const ProgressSink& progress) {
+    const auto tell = [&](const char* stage) {
+        if (progress) progress({stage, 0.0, 1.0, "", 0.0, "", ""});
     };
+    Clock clock;
     const Body body = unit_body(mesh);
     check(settings, body);
-    const UnitDistance unit_distance(distance, body.frame);
+    const UnitDistance unit_distance(search, body.frame), unit_exact(exact, body.frame);
     const std::size_t n = settings.sphere_count;
     // Spheres much smaller than the gaps fit the noise of the samples, not the body.
     const double min_radius = std::max(settings.min_radius / body.frame.length, std::min(2.0 * expected_gap(n), 0.05 * body.smallest_extent));
     FitResult result;
+    result.symmetry = chosen_symmetry(mesh, exact, settings);
+    const SymmetryGroup group = SymmetryGroup::of(result.symmetry);
+    const bool symmetric = group.elements.size() > 1;
 
-    tell("seeding spheres", 0.0, 1.0);
-    const SampleBlocks coarse = samples_of(body, std::max<std::size_t>(3000, 150 * n), settings.seed);
+    tell("seeding spheres");
+    const SampleBlocks coarse = samples_of(body, std::max({std::size_t{3000}, 150 * n, 1000 * group.elements.size()}), settings.seed, group);
     SeedSettings seeds;
     seeds.count = n;
     seeds.min_radius = min_radius;
     seeds.largest_radius = 0.5 * body.smallest_extent;
     seeds.tolerance = std::min(0.3 * expected_gap(n), 0.02 * body.smallest_extent);
-    std::vector<Sphere> spheres = seed_by_gaps(coarse, unit_distance, seeds);
+    std::vector<Sphere> spheres;
+    SymmetricSpheres orbits;
+    if (symmetric) {
+        orbits = seed_orbits(group, coarse, unit_distance, seeds);
+    } else {
+        spheres = seed_by_gaps(coarse, unit_distance, seeds);
+    }
+    result.times.seeds = clock.lap();
 
-    tell("fitting spheres", 0.0, 1.0);
+    tell("fitting spheres");
     Containment containment{&unit_distance, 0.0};
     const auto settle_all = [&](const SampleBlocks& samples, std::uint32_t iterations, double tolerance) {
+        if (symmetric) spheres = SymmetryMap(group, orbits.places()).expand(orbits.spheres());
         GapLoss loss(samples, spheres);
         // Reaching out by twice the usual gap is what a good fit does at edges.
         loss.evaluate(pack(spheres), nullptr, nullptr);
         containment.slack = 2.0 * std::sqrt(loss.gap_part());
+        if (symmetric) {
+            settle_orbits(group, orbits, samples, containment, iterations, tolerance, min_radius, std::numeric_limits<double>::infinity(), result.iterations);
+            spheres = SymmetryMap(group, orbits.places()).expand(orbits.spheres());
+            return;
+        }
         loss.contain(containment);
         const MinimiserResult settled = settle(loss, {iterations, tolerance, min_radius, 0.05});
         loss.copy_spheres(spheres);
@@ -102,7 +207,7 @@ FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& di
     };
     settle_all(coarse, 60, 1e-3);
 
-    tell("moving spheres to better places", 0.0, 1.0);
+    tell("moving spheres to better places");
     RelocationSettings relocation;
     relocation.trials = static_cast<std::uint32_t>(settings.effort * std::clamp(2.0 * static_cast<double>(n), 60.0, 800.0));
     relocation.seed = settings.seed;
@@ -110,37 +215,47 @@ FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& di
     relocation.largest_radius = seeds.largest_radius;
     relocation.tolerance = seeds.tolerance;
     relocation.slack = containment.slack;
-    const RelocationResult moved = relocate(spheres, coarse, unit_distance, relocation);
+    const RelocationResult moved =
+        symmetric ? relocate_orbits(group, orbits, coarse, unit_distance, relocation) : relocate(spheres, coarse, unit_distance, relocation);
     result.iterations += moved.iterations;
     result.relocations = moved.accepted;
 
-    tell("matching both surfaces", 0.0, 1.0);
-    const SampleBlocks fine = samples_of(body, std::max<std::size_t>(8000, 300 * n), settings.seed + 1);
+    const bool minimax = settings.mode == FitMode::minimax;
+    const SampleBlocks fine = samples_of(body, std::max({std::size_t{8000}, 300 * n, 1000 * group.elements.size()}), settings.seed + 1, group,
+                                         minimax || settings.mode == FitMode::outside);
     settle_all(fine, 60, 1e-4);
-    SymmetricLoss both(fine, unit_distance, spheres, body.moments, std::max<std::size_t>(10000, 60 * n));
-    BlockMetric metric;
-    VectorXd x = pack(spheres);
-    MinimiserSettings polish;
-    polish.iterations = 40;
-    polish.tolerance = 3e-4;
-    const MinimiserResult polished = minimise(
-        x, lower_bounds(n, min_radius),
-        [&](const VectorXd& at, VectorXd& gradient, bool refresh) {
-            const double value = both.evaluate(at, gradient, refresh ? &metric : nullptr);
-            if (refresh) metric.factorise(0.05);
-            return value;
-        },
-        [&](VectorXd& q) { metric.apply(q); }, polish);
-    spheres = unpack(x);
+    result.times.search = clock.lap();
+
+    tell("matching both surfaces");
+    const SymmetryMap map(group, orbits.places());
+    const ModeContext context{
+        body.mesh, unit_distance, unit_exact, body.moments, min_radius, settings.poke_out / body.frame.length, symmetric ? &map : nullptr};
+    const std::size_t points = std::max<std::size_t>(10000, (minimax ? 120 : 60) * n);
+    MinimiserResult polished = mode_stage(settings.mode)(spheres, context, fine, points);
+    const ContactLimit limit{settings.most_contacts, (settings.press > 0.0 ? settings.press / body.frame.length : body.smallest_extent / 300.0)};
+    if (limit.most > 0) polished.iterations += fit_within_contacts(spheres, context, limit, fine, points).iterations;
     result.iterations += polished.iterations;
     result.status = polished.converged ? FitStatus::converged : FitStatus::stopped_early;
 
-    tell("matching volume and inertia", 0.0, 1.0);
-    match_moments(spheres, body.moments, {settings.match_volume, settings.match_inertia, min_radius, 0.002});
+    const bool one_sided = settings.mode == FitMode::inside || settings.mode == FitMode::outside;
+    MatchSettings match{settings.match_volume, settings.match_inertia, min_radius, 0.002};
+    if (!one_sided) {
+        tell("matching volume and inertia");
+        match_moments(spheres, body.moments, match);
+        restore_symmetry(spheres, context);
+        match.centre_and_inertia = false;  // from here on radii grow or shrink together only: that keeps level poles level and contacts few
+    }
+    if (settings.mode == FitMode::flat) level_poles(spheres, context);
+    if (limit.most > 0 && !hold_contacts(spheres, context, limit)) result.status = FitStatus::limit_not_met;
+    if (!one_sided && (symmetric || limit.most > 0 || settings.mode == FitMode::flat)) match_moments(spheres, body.moments, match);
+
+    SymmetricLoss both(fine, unit_distance, spheres, body.moments, points);
     VectorXd gradient;
     both.evaluate(pack(spheres), gradient, nullptr);
     result.loss = 0.5 * (both.first() + both.second()) * body.frame.length * body.frame.length;
+    result.poke_out = std::max(0.0, largest_poke_out(spheres, unit_exact) + unit_exact.error_bound()) * body.frame.length;
     result.spheres = body.frame.to_mesh(std::move(spheres));
+    result.times.finish = clock.lap();
     return result;
 }
 

@@ -1,6 +1,8 @@
 #include "shapegen/make_clump.hpp"
 
-#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "meshes/mass_properties.hpp"
@@ -12,10 +14,8 @@ namespace pelletlab::shapegen {
 
 namespace {
 
-MassProperties chosen_mass(MassSource source, const TriangleMesh& body, std::span<const Sphere> spheres, double density) {
-    const MassProperties target = meshes::mass_properties(body, density);
+MassProperties chosen_mass(MassSource source, const MassProperties& target, const MassProperties& clump) {
     if (source == MassSource::target_mesh) return target;
-    const MassProperties clump = union_mass_properties(spheres, density);
     if (source == MassSource::union_of_spheres) return clump;
     return with_density(clump, target.mass / clump.volume);  // density matched: the union weighs what the body weighs
 }
@@ -32,14 +32,29 @@ RigidTemplate rigid_template(std::string name, std::span<const Sphere> spheres_m
     return result;
 }
 
+MadeClump judged_clump(std::span<const Sphere> spheres_mesh, const TriangleMesh& body, const meshes::SignedDistance& exact, const ClumpSettings& settings) {
+    if (!(settings.density > 0.0)) throw bad_input("the particle density is not positive", "give it like 1800 kg/m^3");
+    MadeClump made;
+    made.fit.spheres.assign(spheres_mesh.begin(), spheres_mesh.end());
+    made.clump.quality = measure_quality(spheres_mesh, body, exact);
+    if (settings.measure_surface) made.surface = measure_surface(spheres_mesh, body, exact);
+    made.mesh_mass = meshes::mass_properties(body, settings.density);
+    made.union_mass = union_mass_properties(spheres_mesh, settings.density);
+    for (const Sphere& s : spheres_mesh) made.sum_volume += 4.0 / 3.0 * std::numbers::pi * s.radius * s.radius * s.radius;
+    made.clump.mass_source = settings.mass_source;
+    made.clump.rigid = rigid_template("clump", spheres_mesh, chosen_mass(settings.mass_source, made.mesh_mass, made.union_mass));
+    made.cost = dem_cost(rigid_template("", spheres_mesh, made.mesh_mass).spheres, made.mesh_mass, settings.cost);
+    made.relative_cost = made.cost.cost / dem_cost_of_shape_2(settings.density, settings.cost).cost;
+    return made;
+}
+
 ClumpTemplate judged_template(std::span<const Sphere> spheres_mesh, const TriangleMesh& body, const meshes::SignedDistance& exact, double density,
                               MassSource mass_source) {
-    if (!(density > 0.0)) throw bad_input("the particle density is not positive", "give it like 1800 kg/m^3");
-    ClumpTemplate clump;
-    clump.quality = measure_quality(spheres_mesh, body, exact);
-    clump.mass_source = mass_source;
-    clump.rigid = rigid_template("clump", spheres_mesh, chosen_mass(mass_source, body, spheres_mesh, density));
-    return clump;
+    ClumpSettings settings;
+    settings.density = density;
+    settings.mass_source = mass_source;
+    settings.measure_surface = false;
+    return judged_clump(spheres_mesh, body, exact, settings).clump;
 }
 
 MadeClump make_clump(const TriangleMesh& body, const ClumpSettings& settings, const ProgressSink& progress) {
@@ -47,21 +62,49 @@ MadeClump make_clump(const TriangleMesh& body, const ClumpSettings& settings, co
     if (!(settings.voxel_fraction >= 0.0 && settings.voxel_fraction <= 0.25)) {
         throw bad_input("the voxel fraction is not between 0 and 1/4", "give 0 for exact distances, or for instance 1/64 of the smallest extent");
     }
+    if (!(settings.most_cost >= 0.0))
+        throw bad_input("the DEM cost allowed is negative or not a number", "give it in costs of the study's Shape 2, for instance 2");
     if (progress) progress({"computing the signed distance", 0.0, 1.0, "", 0.0, "", ""});
+    auto last = std::chrono::steady_clock::now();
+    const auto lap = [&last] {
+        const auto now = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(now - last).count();
+        last = now;
+        return seconds;
+    };
     const auto exact = meshes::exact_signed_distance(body);
+    std::unique_ptr<meshes::SignedDistance> grid;
+    if (settings.voxel_fraction > 0.0)
+        grid = meshes::grid_signed_distance(body, settings.voxel_fraction * bounding_box(body).sizes().minCoeff(), meshes::GridFill::openvdb);
+    const meshes::SignedDistance& search = grid ? *grid : *exact;
     MadeClump made;
-    if (settings.voxel_fraction > 0.0) {
-        const auto grid = meshes::grid_signed_distance(body, settings.voxel_fraction * bounding_box(body).sizes().minCoeff(), meshes::GridFill::openvdb);
-        made.fit = fit_spheres(body, *grid, settings.fit, progress);
+    made.search_error = search.error_bound();
+    made.times.distance = lap();
+
+    if (settings.stop.any() || settings.most_cost > 0.0) {
+        StoppedFit stopped = settings.stop.any()
+                                 ? fit_to_criteria(body, search, *exact, settings.fit, settings.stop, progress)
+                                 : fit_within_cost(body, search, *exact, settings.fit, settings.density, settings.most_cost, settings.cost, progress);
+        made.fit = std::move(stopped.fit);
+        made.attempts = stopped.attempts;
     } else {
-        made.fit = fit_spheres(body, *exact, settings.fit, progress);
+        made.fit = fit_spheres(body, search, *exact, settings.fit, progress);
     }
+    made.times.fit = lap();
+
     if (progress) progress({"measuring the fit", 0.0, 1.0, "", 0.0, "", ""});
-    made.clump = judged_template(made.fit.spheres, body, *exact, settings.density, settings.mass_source);
+    MadeClump judged = judged_clump(made.fit.spheres, body, *exact, settings);
+    judged.fit = std::move(made.fit);
+    judged.search_error = made.search_error;
+    judged.attempts = made.attempts;
+    judged.times = made.times;
+    made = std::move(judged);
+    if (settings.most_cost > 0.0 && made.relative_cost > settings.most_cost * (1.0 + 1e-9)) made.fit.status = FitStatus::criterion_not_met;
     made.clump.provenance.version = build_version();
     made.clump.provenance.git_hash = build_git_hash();
     made.clump.provenance.verb = "shape";
     made.clump.provenance.seed = settings.fit.seed;
+    made.times.quality = lap();
     return made;
 }
 

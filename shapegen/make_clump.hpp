@@ -7,24 +7,49 @@
 #include "core/clump_template.hpp"
 #include "core/progress.hpp"
 #include "core/triangle_mesh.hpp"
+#include "shapegen/dem_cost.hpp"
 #include "shapegen/fit.hpp"
+#include "shapegen/stop_criteria.hpp"
+#include "shapegen/surface_report.hpp"
 
 namespace pelletlab::shapegen {
 
 struct ClumpSettings {
     FitSettings fit;
-    double density = 1800.0;  ///< [kg/m³]
+    StopCriteria stop;       ///< any criterion given: as few spheres as meet it instead of fit.sphere_count
+    double most_cost = 0.0;  ///< in DEM costs of the study's Shape 2; above 0 and no criterion given: as many spheres as that buys instead of fit.sphere_count;
+                             ///< with criteria: as few as meet them, and status criterion_not_met when those cost more
+    DemCostSettings cost;
+    bool measure_surface = true;  ///< fill MadeClump::surface
+    double density = 1800.0;      ///< [kg/m³]
     MassSource mass_source = MassSource::target_mesh;
     double voxel_fraction = 1.0 / 32.0;  ///< voxel of OpenVDB's search grid / smallest extent of the body; 0: the fit asks the exact distance instead
 };
 
+/// Wall-clock seconds of the stages; those of the fit itself stand in FitResult::times.
+struct ClumpTimes {
+    double distance = 0.0, fit = 0.0, quality = 0.0;
+};
+
 struct MadeClump {
-    ClumpTemplate clump;  ///< spheres in the body frame (centre of mass, principal axes)
-    FitResult fit;        ///< spheres in the mesh frame
+    ClumpTemplate clump;    ///< spheres in the body frame (centre of mass, principal axes)
+    FitResult fit;          ///< spheres in the mesh frame
+    SurfaceReport surface;  ///< roughness, normals, edges, plane contacts
+    DemCost cost;
+    double relative_cost = 0.0;            ///< / that of the study's Shape 2 at the same density
+    double search_error = 0.0;             ///< [m], bound of the error of the distance that the search used
+    std::uint32_t attempts = 1;            ///< fits made to meet a criterion
+    MassProperties mesh_mass, union_mass;  ///< of the target mesh and of the union, beside the exported clump.rigid.mass_properties
+    double sum_volume = 0.0;               ///< [m³], of all spheres, overlaps counted as often as they occur: for comparison only
+    ClumpTimes times;
 };
 
 /// `body` closed and outward oriented (meshes::require_closed_body).
 MadeClump make_clump(const TriangleMesh& body, const ClumpSettings& settings, const ProgressSink& progress = {});
+
+/// Any spheres in the mesh frame (of another method, of a file), judged and weighed as make_clump does with its own. Of `settings` the density, mass source,
+/// cost and measure_surface count; times and fit statistics stay empty. `exact`: the exact distance of `body`.
+MadeClump judged_clump(std::span<const Sphere> spheres_mesh, const TriangleMesh& body, const meshes::SignedDistance& exact, const ClumpSettings& settings);
 
 /// Any spheres in the mesh frame (of another method, of a file) as a template, judged and weighed as make_clump does. `exact`: the exact distance of `body`.
 ClumpTemplate judged_template(std::span<const Sphere> spheres_mesh, const TriangleMesh& body, const meshes::SignedDistance& exact, double density,

@@ -193,8 +193,8 @@ double GapLoss::evaluate(const VectorXd& x, VectorXd* gradient, BlockMetric* met
     });
 
     const double weight = 1.0 / static_cast<double>(samples_.size());
-    double sum = 0.0;
-    // Per free sphere: Σ n φ and Σ φ (4), and the upper triangle of Σ (n, 1)(n, 1)ᵀ (9, the last entry is the count).
+    double sum = 0.0, squares = 0.0;
+    // Per free sphere: Σ ½f′ (n, 1), and for the metric Σ ½f″ (n, 1)(n, 1)ᵀ.
     std::vector<Eigen::Vector4d> slope(free_.size(), Eigen::Vector4d::Zero());
     if (metric) metric->blocks.assign(free_.size(), Eigen::Matrix4d::Zero());
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
@@ -205,18 +205,21 @@ double GapLoss::evaluate(const VectorXd& x, VectorXd* gradient, BlockMetric* met
             const double length = offset.norm();
             const double gap = length - spheres_[i].radius;
             gap_[k * width + lane] = gap;
-            sum += gap * gap;
+            squares += gap * gap;
+            const GapCharge charged = charge(shape_, gap, gap < 0.0);
+            sum += charged.value;
             if (!gradient || slot_[i] < 0) continue;
             const auto s = static_cast<std::size_t>(slot_[i]);
             const double inverse = 1.0 / length;
             const Eigen::Vector4d row(offset.x() * inverse, offset.y() * inverse, offset.z() * inverse, 1.0);
-            slope[s] += gap * row;
+            slope[s] += charged.half_slope * row;
             if (!metric) continue;
             Eigen::Matrix4d& block = metric->blocks[s];
-            block.col(0) += row[0] * row;
-            block.col(1) += row[1] * row;
-            block.col(2) += row[2] * row;
-            block.col(3) += row;
+            const Eigen::Vector4d weighted = charged.half_bend * row;
+            block.col(0) += row[0] * weighted;
+            block.col(1) += row[1] * weighted;
+            block.col(2) += row[2] * weighted;
+            block.col(3) += weighted;
         }
     }
     if (gradient) {
@@ -226,7 +229,7 @@ double GapLoss::evaluate(const VectorXd& x, VectorXd* gradient, BlockMetric* met
     if (metric) {
         for (auto& block : metric->blocks) block *= 2.0 * weight;
     }
-    last_rms_ = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, gap_.size())));
+    last_rms_ = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, gap_.size())));
     gap_part_ = sum * weight;
     return gap_part_ + (containment_.distance ? add_containment(gradient, metric) : 0.0);
 }

@@ -10,6 +10,7 @@
 
 #include "core/rigid_template.hpp"
 #include "meshes/signed_distance.hpp"
+#include "shapegen/detail/gap_shape.hpp"
 #include "shapegen/detail/nearest_kernel.hpp"
 #include "shapegen/detail/sample_blocks.hpp"
 
@@ -50,8 +51,10 @@ public:
     GapLoss(const SampleBlocks& samples, std::span<const Sphere> spheres, std::vector<std::uint32_t> free_spheres, std::vector<std::uint32_t> blocks);
 
     void contain(const Containment& containment) { containment_ = containment; }
+    void charge_by(const GapShape& shape) { shape_ = shape; }
 
-    /// x holds the free spheres. Returns Σ φ² / (number of all points); fills gradient, and the metric when wanted.
+    /// x holds the free spheres. Returns Σ f(φ) / (number of all points), f(φ) = φ² unless charge_by() says otherwise; fills gradient, and the metric when
+    /// wanted.
     double evaluate(const VectorXd& x, VectorXd* gradient, BlockMetric* metric);
 
     double gap_part() const { return gap_part_; }  ///< of the last evaluation, without the containment
@@ -81,6 +84,7 @@ private:
     };
 
     Containment containment_;
+    GapShape shape_;
     std::vector<Known> known_;  // one a free sphere
     std::vector<Sphere> spheres_;
     std::vector<Sphere> reference_;  // when the candidates were collected

@@ -16,6 +16,7 @@ struct Piece {
     Vec3 normal;
     double area;
     std::uint64_t key;
+    std::uint32_t face;
 };
 
 // Spreads the lower 21 bits so that two zero bits follow each.
@@ -56,8 +57,8 @@ void cut(const Piece& piece, double largest_area, const Box& box, std::vector<Pi
     const Vec3& b = piece.corner[(longest + 1) % 3];
     const Vec3& c = piece.corner[(longest + 2) % 3];
     const Vec3 middle = 0.5 * (a + b);
-    cut({{a, middle, c}, piece.normal, 0.5 * piece.area, 0}, largest_area, box, out);
-    cut({{middle, b, c}, piece.normal, 0.5 * piece.area, 0}, largest_area, box, out);
+    cut({{a, middle, c}, piece.normal, 0.5 * piece.area, 0, piece.face}, largest_area, box, out);
+    cut({{middle, b, c}, piece.normal, 0.5 * piece.area, 0, piece.face}, largest_area, box, out);
 }
 
 }  // namespace
@@ -66,7 +67,7 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, std::size_t count, std::
     SurfaceSamples samples;
     std::vector<Piece> whole;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        Piece piece{{mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2)}, Vec3::Zero(), 0.0, 0};
+        Piece piece{{mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2)}, Vec3::Zero(), 0.0, 0, static_cast<std::uint32_t>(f)};
         const Vec3 normal = (piece.corner[1] - piece.corner[0]).cross(piece.corner[2] - piece.corner[0]);
         piece.area = 0.5 * normal.norm();
         if (!(piece.area > 0.0)) continue;
@@ -100,8 +101,19 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, std::size_t count, std::
         const auto& [a, b, c] = piece.corner;
         samples.points.push_back(a + u * (b - a) + v * (c - a));
         samples.normals.push_back(piece.normal);
+        samples.faces.push_back(piece.face);
     }
     return samples;
+}
+
+void sort_by_place(std::vector<Vec3>& points, const Box& box) {
+    std::vector<std::pair<std::uint64_t, std::size_t>> order(points.size());
+    for (std::size_t k = 0; k < points.size(); ++k) order[k] = {morton_key(points[k], box), k};
+    std::sort(order.begin(), order.end());
+    std::vector<Vec3> sorted;
+    sorted.reserve(points.size());
+    for (const auto& [key, k] : order) sorted.push_back(points[k]);
+    points = std::move(sorted);
 }
 
 }  // namespace pelletlab::shapegen::detail

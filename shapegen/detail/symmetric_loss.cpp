@@ -13,15 +13,12 @@ namespace pelletlab::shapegen::detail {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-// What an error of 1e-3 weighs, against the square of gaps of 1e-3 of the body's size. Inertia is held lightly: few spheres cannot have it.
-constexpr double volume_penalty = 1.0;
-constexpr double inertia_penalty = 0.01;
 
 }  // namespace
 
 // Integrals over one sphere's exposed part and their derivatives by its centre and radius.
 struct SymmetricLoss::Part {
-    double integral = 0.0, area = 0.0;
+    double integral = 0.0, area = 0.0, largest = 0.0;
     Eigen::Vector4d integral_slope = Eigen::Vector4d::Zero(), area_slope = Eigen::Vector4d::Zero(), volume_slope = Eigen::Vector4d::Zero();
     Eigen::Matrix<double, 4, 3> spread_slope = Eigen::Matrix<double, 4, 3>::Zero();  // of ∫ x_k² dV along the body's axes
     Eigen::Matrix4d metric = Eigen::Matrix4d::Zero();
@@ -111,9 +108,11 @@ SymmetricLoss::Part SymmetricLoss::one_sphere(const Sphere& sphere, const Expose
         const double across = at.gradient.dot(normal);
         Eigen::Vector4d row;
         row << normal, 1.0;
-        result.integral += weight * at.value * at.value;
-        result.integral_slope += weight * (2.0 * at.value * across + 2.0 * at.value * at.value / r) * row;
-        result.metric += (2.0 * weight * across * across) * row * row.transpose();
+        const GapCharge charged = charge(terms_.gaps, at.value, at.value > 0.0);
+        result.largest = std::max(result.largest, std::abs(at.value));
+        result.integral += weight * charged.value;
+        result.integral_slope += weight * (2.0 * charged.half_slope * across + 2.0 * charged.value / r) * row;
+        result.metric += (2.0 * weight * charged.half_bend * across * across) * row * row.transpose();
         const Vec3 along = axes_.transpose() * q;
         result.spread_slope += (weight * row) * along.cwiseProduct(along).transpose();
     }
@@ -139,17 +138,23 @@ SymmetricLoss::Part SymmetricLoss::one_sphere(const Sphere& sphere, const Expose
         for (int s = 0; s < stretches; ++s) {
             for (std::size_t g = 0; g < 3; ++g) {
                 const double t = arc.begin + (s + 0.5 + 0.5 * node[g]) * step;
-                const Vec3 n = arc.cos_opening * arc.axis + arc.sin_opening * (arc.u * std::cos(t) + arc.v * std::sin(t));
+                const Vec3 normal = arc.cos_opening * arc.axis + arc.sin_opening * (arc.u * std::cos(t) + arc.v * std::sin(t));
                 const double length = share[g] * step * r * arc.sin_opening;
-                const double gap = distance_.value(sphere.centre + r * n);
+                const double gap = distance_.value(sphere.centre + r * normal);
+                result.largest = std::max(result.largest, std::abs(gap));
                 Eigen::Vector4d row;
-                row << n, 1.0;
-                result.integral_slope -= (gap * gap * crease * length) * row;
+                row << normal, 1.0;
+                result.integral_slope -= (charge(terms_.gaps, gap, gap > 0.0).value * crease * length) * row;
                 result.area_slope -= (crease * length) * row;
             }
         }
     }
     return result;
+}
+
+void SymmetricLoss::charge_by(const SymmetricTerms& terms) {
+    terms_ = terms;
+    gap_loss_.charge_by(terms.gaps);
 }
 
 double SymmetricLoss::evaluate(const VectorXd& x, VectorXd& gradient, BlockMetric* metric) {
@@ -159,38 +164,91 @@ double SymmetricLoss::evaluate(const VectorXd& x, VectorXd& gradient, BlockMetri
     std::vector<Part> parts(spheres.size());
     parallel_for(spheres.size(), 4, [&](std::size_t i) { parts[i] = one_sphere(spheres[i], boundary[i], spheres, tables_[table_of_[i]]); });
     double integral = 0.0, area = 0.0;
+    largest_ = 0.0;
     for (const Part& part : parts) {
         integral += part.integral;
         area += part.area;
+        largest_ = std::max(largest_, part.largest);
     }
+    for (const double gap : gap_loss_.gaps()) largest_ = std::max(largest_, std::abs(gap));
     second_ = integral / area;
 
+    // L = s² (E/s²)^(2/p): a length squared whatever the power.
+    const double square = terms_.gaps.scale * terms_.gaps.scale, exponent = 2.0 / terms_.gaps.power;
+    const double both = 0.5 * (first_ + second_) / square;
+    const double outer = exponent * std::pow(both, exponent - 1.0);
+    gradient *= 0.5 * outer;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const auto at = static_cast<Eigen::Index>(4 * i);
+        gradient.segment<4>(at) += 0.5 * outer * (parts[i].integral_slope - second_ * parts[i].area_slope) / area;
+        if (metric) metric->blocks[i] = (0.5 * outer * (metric->blocks[i] + parts[i].metric / area)).eval();
+    }
+    return square * std::pow(both, exponent) + add_penalties(spheres, boundary, parts, gradient, metric) + add_levels(spheres, gradient, metric);
+}
+
+// Volume and spread of the union.
+double SymmetricLoss::add_penalties(const std::vector<Sphere>& spheres, const std::vector<ExposedPart>& boundary, const std::vector<Part>& parts,
+                                    VectorXd& gradient, BlockMetric* metric) {
     const UnionMoments moments = union_moments(spheres, boundary, Vec3::Zero());
     union_volume_ = moments.volume;
     const double excess = moments.volume - 1.0;
     const Vec3 centre = axes_.transpose() * moments.first / moments.volume;
     const Vec3 spread = (axes_.transpose() * moments.second * axes_).diagonal() / moments.volume - centre.cwiseProduct(centre);
     const Vec3 spread_excess = spread.cwiseQuotient(spread_) - Vec3::Ones();
-    gradient *= 0.5;
-    if (metric) {
-        metric->rows.assign(4, VectorXd(gradient.size()));
-        metric->scales = {2.0 * volume_penalty, 2.0 * inertia_penalty, 2.0 * inertia_penalty, 2.0 * inertia_penalty};
-    }
+    VectorXd volume_row(gradient.size());
+    std::vector<VectorXd> spread_row(3, VectorXd(gradient.size()));
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const auto at = static_cast<Eigen::Index>(4 * i);
-        const Part& part = parts[i];
-        gradient.segment<4>(at) += 0.5 * (part.integral_slope - second_ * part.area_slope) / area + 2.0 * volume_penalty * excess * part.volume_slope;
-        if (metric) {
-            metric->blocks[i] = (0.5 * (metric->blocks[i] + part.metric / area)).eval();
-            metric->rows[0].segment<4>(at) = part.volume_slope;
-        }
-        for (int k = 0; k < 3; ++k) {  // d(spread) = (d∫x² − spread dV) / V, the centre being near the origin
-            const Eigen::Vector4d slope = (part.spread_slope.col(k) - spread[k] * part.volume_slope) / (moments.volume * spread_[k]);
-            gradient.segment<4>(at) += 2.0 * inertia_penalty * spread_excess[k] * slope;
-            if (metric) metric->rows[static_cast<std::size_t>(k) + 1].segment<4>(at) = slope;
+        volume_row.segment<4>(at) = parts[i].volume_slope;
+        for (std::size_t k = 0; k < 3; ++k) {  // d(spread) = (d∫x² − spread dV) / V, the centre being near the origin
+            const auto axis = static_cast<Eigen::Index>(k);
+            spread_row[k].segment<4>(at) = (parts[i].spread_slope.col(axis) - spread[axis] * parts[i].volume_slope) / (moments.volume * spread_[axis]);
         }
     }
-    return 0.5 * (first_ + second_) + volume_penalty * excess * excess + inertia_penalty * spread_excess.squaredNorm();
+    gradient += (2.0 * terms_.volume * excess - terms_.volume_reward) * volume_row;
+    for (std::size_t k = 0; k < 3; ++k) gradient += (2.0 * terms_.inertia * spread_excess[static_cast<Eigen::Index>(k)]) * spread_row[k];
+    if (metric) {
+        metric->rows.clear();
+        metric->scales.clear();
+        if (terms_.volume > 0.0) {
+            metric->rows.push_back(std::move(volume_row));
+            metric->scales.push_back(2.0 * terms_.volume);
+        }
+        for (std::size_t k = 0; k < 3 && terms_.inertia > 0.0; ++k) {
+            metric->rows.push_back(std::move(spread_row[k]));
+            metric->scales.push_back(2.0 * terms_.inertia);
+        }
+    }
+    return terms_.volume * excess * excess + terms_.inertia * spread_excess.squaredNorm() - terms_.volume_reward * excess;
+}
+
+// Spheres level with each other, or below a plane.
+double SymmetricLoss::add_levels(const std::vector<Sphere>& spheres, VectorXd& gradient, BlockMetric* metric) const {
+    double sum = 0.0;
+    for (const SymmetricTerms::Level& level : terms_.levels) {
+        const double each = level.weight / static_cast<double>(level.spheres.size());
+        double mean = 0.0;
+        for (const std::uint32_t i : level.spheres) mean += level.normal.dot(spheres[i].centre) + spheres[i].radius;
+        mean /= static_cast<double>(level.spheres.size());
+        Eigen::Vector4d row;
+        row << level.normal, 1.0;
+        for (const std::uint32_t i : level.spheres) {
+            const double off = level.normal.dot(spheres[i].centre) + spheres[i].radius - mean;
+            sum += each * off * off;
+            gradient.segment<4>(static_cast<Eigen::Index>(4 * i)) += 2.0 * each * off * row;
+            if (metric) metric->blocks[i] += 2.0 * each * row * row.transpose();
+        }
+    }
+    for (const SymmetricTerms::Below& term : terms_.below) {
+        const double over = term.normal.dot(spheres[term.sphere].centre) + spheres[term.sphere].radius - term.level;
+        if (over <= 0.0) continue;
+        Eigen::Vector4d row;
+        row << term.normal, 1.0;
+        sum += term.weight * over * over;
+        gradient.segment<4>(static_cast<Eigen::Index>(4 * term.sphere)) += 2.0 * term.weight * over * row;
+        if (metric) metric->blocks[term.sphere] += 2.0 * term.weight * row * row.transpose();
+    }
+    return sum;
 }
 
 }  // namespace pelletlab::shapegen::detail
