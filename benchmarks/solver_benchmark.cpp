@@ -1,7 +1,9 @@
 // Speed of the solver on settled tubes and rotating drums: pellet-steps a second, nanoseconds a stage, one thread and more.
 //   solver_benchmark tube  --pellets 2000 --spheres 82 --state tube.checkpoint --steps 1000 --repeats 5 --threads 1,2
 //   solver_benchmark drum  --pellets 22000 --spheres 82 --rpm 35 …
-// The state is prepared once (rain, settling, rotation) and kept in the checkpoint file; later calls start from it.
+//   solver_benchmark box   --pellets 100000 --spheres 1 …
+// The state is prepared once (rain, settling, rotation) and kept in the checkpoint file; later calls start from it. With --bodies FILE it starts from the
+// bodies of another program instead: a line each, place, turn w x y z, velocity, spin.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -10,6 +12,7 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <sstream>
 #include <string>
@@ -26,7 +29,7 @@ namespace {
 
 constexpr double pellet_radius = 1.56e-3, pellet_height = 2.96e-3, big = 0.765e-3, small = 0.35e-3;
 
-/// The study's pellet as rings of spheres: 1, 12, 24, 42, 82 (the layout of ../shared/peers/make_clump.py) or 200; mass of the true cylinder.
+/// The study's pellet as rings of spheres, as benchmarks/peers/liggghts.py has it; mass of the true cylinder.
 RigidTemplate pellet_template(int spheres) {
     RigidTemplate t;
     t.name = "pellet" + std::to_string(spheres);
@@ -41,12 +44,13 @@ RigidTemplate pellet_template(int spheres) {
         for (int k = 0; k < count; ++k) ring(n, -top + 2.0 * top * k / (count - 1), radius, phase);
     };
     if (spheres == 1) t.spheres = {{Vec3::Zero(), std::cbrt(0.75 * pellet_radius * pellet_radius * pellet_height)}};
+    if (spheres == 10) rings(2, 5, big, 0.0);
     if (spheres == 12) rings(2, 6, big, 0.0);
     if (spheres == 24 || spheres == 42) rings(3, 8, big, 0.0);
     if (spheres == 42) rings(2, 9, small, 0.5);
     if (spheres == 82) rings(3, 16, big, 0.0), rings(2, 17, small, 0.5);
     if (spheres == 200) rings(5, 24, big, 0.0), rings(2, 40, small, 0.5);
-    if (t.spheres.empty()) throw usage_error("--spheres is 1, 12, 24, 42, 82 or 200");
+    if (t.spheres.empty()) throw usage_error("--spheres is 1, 10, 12, 24, 42, 82 or 200");
     MassProperties& m = t.mass_properties;
     m.volume = M_PI * pellet_radius * pellet_radius * pellet_height;
     m.density = 1800.0;
@@ -80,10 +84,20 @@ TriangleMesh shell(double radius, double low, double high, int n, int axis, bool
     return mesh;
 }
 
+/// An open box about the z axis, from its floor at 0.
+TriangleMesh open_box(double half, double height) {
+    TriangleMesh mesh;
+    for (const double z : {0.0, height})
+        for (const double y : {-half, half})
+            for (const double x : {-half, half}) mesh.vertices.push_back({x, y, z});
+    mesh.faces = {{0, 1, 3}, {0, 3, 2}, {0, 1, 5}, {0, 5, 4}, {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 3, 7}, {1, 7, 5}};
+    return mesh;
+}
+
 struct Options {
-    std::string rig = "tube", state;
+    std::string rig = "tube", state, bodies;
     int pellets = 2000, spheres = 82, steps = 1000, repeats = 5;
-    double rpm = 35.0, settle = 0.5, spin_up = 1.0, step = 1e-5;
+    double rpm = 35.0, settle = 0.5, spin_up = 1.0, step = 1e-5, height = 0.0;
     std::vector<int> threads{1, 2};
     solver::SearchSkins skins;
 };
@@ -92,7 +106,7 @@ Options read_options(int argc, char** argv) {
     Options o;
     if (argc < 2)
         throw usage_error(
-            "usage: solver_benchmark tube|drum [--pellets N] [--spheres N] [--state FILE] [--steps N] [--repeats N] [--threads 1,2] [--settle s] …");
+            "usage: solver_benchmark tube|drum|box [--pellets N] [--spheres N] [--state FILE] [--steps N] [--repeats N] [--threads 1,2] [--settle s] …");
     o.rig = argv[1];
     for (int k = 2; k + 1 < argc; k += 2) {
         const std::string key = argv[k], value = argv[k + 1];
@@ -110,6 +124,8 @@ Options read_options(int argc, char** argv) {
             o.settle = std::stod(value);
         else if (key == "--spin-up")
             o.spin_up = std::stod(value);
+        else if (key == "--height")
+            o.height = std::stod(value);
         else if (key == "--time-step")
             o.step = std::stod(value);
         else if (key == "--skin-bodies")
@@ -122,6 +138,8 @@ Options read_options(int argc, char** argv) {
             o.skins.wall_candidates = std::stod(value);
         else if (key == "--state")
             o.state = value;
+        else if (key == "--bodies")
+            o.bodies = value;
         else if (key == "--threads") {
             o.threads.clear();
             std::stringstream list(value);
@@ -147,6 +165,25 @@ solver::WallDefinition vessel(TriangleMesh mesh) {
     return wall;
 }
 
+std::vector<solver::BodyPlacement> read_bodies(const std::string& file) {
+    std::vector<solver::BodyPlacement> bodies;
+    std::ifstream in(file);
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream numbers(line);
+        double v[13];
+        for (double& x : v)
+            if (!(numbers >> x))
+                throw bad_input("line " + std::to_string(bodies.size() + 1) + " has fewer than 13 numbers", "see solver_benchmark.cpp", {file});
+        solver::BodyPlacement p;
+        p.pose = {{v[0], v[1], v[2]}, Quat(v[3], v[4], v[5], v[6]).normalized()};
+        p.velocity = {v[7], v[8], v[9]};
+        p.spin = {v[10], v[11], v[12]};
+        bodies.push_back(p);
+    }
+    if (bodies.empty()) throw bad_input("there are no bodies", "give a file that scripts/bench-peers made", {file});
+    return bodies;
+}
+
 /// Pellets on a lattice with random orientations, filling a cylinder (axis 2: upright tube, axis 1: lying drum) from below.
 Bench make_bench(const Options& o) {
     Bench b;
@@ -169,7 +206,7 @@ Bench make_bench(const Options& o) {
             for (int j = -8; j <= 8; ++j)
                 for (int i = -8; i <= 8; ++i)
                     if (std::hypot(i, j) * spacing < room && b.bodies.size() < n) put(i * spacing, j * spacing, (k + 0.6) * spacing);
-        b.definition.walls = {vessel(shell(radius, 0.0, b.bodies.back().pose.position.z() + 0.02, 96, 2, true, false))};
+        b.definition.walls = {vessel(shell(radius, 0.0, o.height > 0.0 ? o.height : b.bodies.back().pose.position.z() + 0.02, 96, 2, true, false))};
     } else if (o.rig == "drum") {
         const double volume = o.pellets * b.definition.templates[0].mass_properties.volume / 0.6 / 0.2;
         const double diameter = std::cbrt(volume / (0.25 * M_PI * 0.375)), length = 0.375 * diameter, room = 0.5 * diameter * std::cos(M_PI / 120.0) - reach;
@@ -184,15 +221,30 @@ Bench make_bench(const Options& o) {
         }
         b.definition.walls = {vessel(shell(0.5 * diameter, -0.5 * length, 0.5 * length, 120, 1, true, true))};
         b.motion.rotation_speed = o.rpm * 2.0 * M_PI / 60.0;
+    } else if (o.rig == "box") {
+        const double half = 0.12 * std::sqrt(o.pellets / 1e5);
+        const int across = static_cast<int>(2.0 * (half - reach) / spacing);
+        for (int k = 0; b.bodies.size() < n; ++k)
+            for (int j = 0; j <= across; ++j)
+                for (int i = 0; i <= across; ++i)
+                    if (b.bodies.size() < n) put((i - 0.5 * across) * spacing, (j - 0.5 * across) * spacing, (k + 0.6) * spacing);
+        b.definition.walls = {vessel(open_box(half, b.bodies.back().pose.position.z() + 0.02))};
     } else {
-        throw usage_error("the rig is tube or drum");
+        throw usage_error("the rig is tube, drum or box");
     }
+    if (!o.bodies.empty()) b.bodies = read_bodies(o.bodies);
     return b;
 }
 
 void prepare(solver::Simulation& s, const Bench& b, const Options& o) {
     if (!o.state.empty() && std::filesystem::exists(o.state)) {
         s.load_checkpoint(o.state);
+        return;
+    }
+    if (!o.bodies.empty()) {
+        s.add_bodies(b.bodies, 1.0);
+        if (o.rig == "drum") s.set_wall_motion(0, b.motion);
+        s.advance(static_cast<std::uint64_t>(o.settle / o.step));  // contacts get their history back
         return;
     }
     s.add_bodies(b.bodies);
@@ -228,6 +280,7 @@ double memory_megabytes() {
 int run(int argc, char** argv) {
     const Options o = read_options(argc, argv);
     const Bench b = make_bench(o);
+    if (b.bodies.size() != static_cast<std::size_t>(o.pellets)) throw usage_error("--pellets is not the number of bodies in the file");
     const auto advice = solver::advise_time_step(b.definition);
     solver::Simulation s(b.definition);
     prepare(s, b, o);

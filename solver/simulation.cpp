@@ -15,8 +15,7 @@ namespace pelletlab::solver {
 
 namespace {
 
-constexpr double overlap_allowed_at_start = 0.05;  ///< of the smallest sphere's radius
-constexpr std::size_t most_spheres = 32767;        ///< a candidate keeps its sphere in 15 bits
+constexpr std::size_t most_spheres = 32767;  ///< a candidate keeps its sphere in 15 bits
 
 void check_template(const RigidTemplate& t) {
     const std::string what = "template «" + t.name + "»";
@@ -70,6 +69,12 @@ const detail::Kernels* choose_kernels(InstructionSet wanted) {
     if (wanted == InstructionSet::avx512) kernels = detail::avx512_kernels();
     if (!kernels) throw bad_input("this processor lacks the instruction set that was asked for", "leave the choice to the program");
     return kernels;
+}
+
+std::string percent(double share) {
+    std::ostringstream text;
+    text << 100.0 * share;
+    return text.str();
 }
 
 std::string place(const Vec3& p) {
@@ -140,7 +145,7 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-void Simulation::add_bodies(std::span<const BodyPlacement> added) {
+void Simulation::add_bodies(std::span<const BodyPlacement> added, double overlap_allowed) {
     State& s = *state_;
     const std::size_t before = s.bodies.size(), n = before + added.size();
     for (const BodyPlacement& b : added) {
@@ -174,12 +179,12 @@ void Simulation::add_bodies(std::span<const BodyPlacement> added) {
         if (pair.i < before && pair.j < before) continue;
         const double ratio =
             deepest_overlap(s.kinematics[pair.i], s.templates[s.bodies.template_of(pair.i)], s.kinematics[pair.j], s.templates[s.bodies.template_of(pair.j)]);
-        if (ratio <= overlap_allowed_at_start) continue;
+        if (ratio <= overlap_allowed) continue;
         std::ostringstream text;
         text << "bodies " << s.bodies.id(pair.i) << " and " << s.bodies.id(pair.j) << " overlap by " << 100.0 * ratio
              << " % of their smallest sphere's radius, near " << place(s.bodies.position(pair.j));
         shrink(before);
-        throw bad_input(text.str(), "place bodies apart: at most 5 % is allowed");
+        throw bad_input(text.str(), "place bodies apart: at most " + percent(overlap_allowed) + " % is allowed");
     }
     std::vector<detail::WallOverlap> overlaps;
     for (const detail::Wall& wall : s.walls)
@@ -189,12 +194,12 @@ void Simulation::add_bodies(std::span<const BodyPlacement> added) {
             detail::wall_overlaps(wall, s.kinematics[i], t, overlaps);
             for (const detail::WallOverlap& o : overlaps) {
                 const double ratio = o.overlap / t.smallest_radius;
-                if (ratio <= overlap_allowed_at_start) continue;
+                if (ratio <= overlap_allowed) continue;
                 std::ostringstream text;
                 text << "body " << i << " overlaps wall «" << wall.name << "» by " << 100.0 * ratio << " % of its smallest sphere's radius, near "
                      << place(s.bodies.position(i));
                 shrink(before);
-                throw bad_input(text.str(), "place bodies apart: at most 5 % is allowed");
+                throw bad_input(text.str(), "place bodies apart: at most " + percent(overlap_allowed) + " % is allowed");
             }
         }
     s.order_bodies();

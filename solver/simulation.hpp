@@ -139,8 +139,9 @@ public:
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
 
-    /// Throws Error(bad_input) when bodies overlap each other or a wall by more than 5 % of their smallest sphere's radius.
-    void add_bodies(std::span<const BodyPlacement> bodies);
+    /// Throws Error(bad_input) when bodies overlap each other or a wall by more than `overlap_allowed` of their smallest sphere's radius. More than the
+    /// usual 5 % is for settled beds that come from elsewhere.
+    void add_bodies(std::span<const BodyPlacement> bodies, double overlap_allowed = 0.05);
 
     /// One time step: see solver/step.cpp, a list of named stages.
     void step();
