@@ -30,10 +30,11 @@ void choose_axes(BodyTemplate& t) {
 BodyTemplate make_body_template(const RigidTemplate& rigid) {
     BodyTemplate t;
     t.balls.reserve(rigid.spheres.size());
-    t.smallest_radius = rigid.spheres.front().radius;
+    t.smallest_radius = t.largest_radius = rigid.spheres.front().radius;
     for (const Sphere& s : rigid.spheres) {
         t.balls.push_back({s.centre.x(), s.centre.y(), s.centre.z(), s.radius});
         t.smallest_radius = std::min(t.smallest_radius, s.radius);
+        t.largest_radius = std::max(t.largest_radius, s.radius);
         t.largest_offset = std::max(t.largest_offset, s.centre.norm());
     }
     t.bounding_radius = bounding_radius(rigid.spheres);

@@ -17,7 +17,7 @@ namespace pelletlab::solver {
 namespace {
 
 constexpr std::array<char, 8> magic{'P', 'L', 'A', 'B', 'C', 'K', 'P', 'T'};
-constexpr std::uint32_t version = 3;
+constexpr std::uint32_t version = 4;
 
 struct Header {
     std::array<char, 8> magic;
@@ -101,12 +101,13 @@ private:
 struct SavedSpring {
     std::uint32_t i, j;
     std::uint32_t a, b;
-    double spring[3];
+    double spring[8];  ///< rows of the history, the second one zero where there is none
 };
 
 struct SavedHistory {
     std::uint32_t body, sphere, patch;
-    Vec3 normal, spring;
+    Vec3 normal, spring, torque;
+    double broken;
 };
 
 /// Everything of a checkpoint, read and checked before the simulation is touched.
@@ -135,12 +136,12 @@ std::vector<char> payload_of(const Simulation::State& s) {
     std::vector<SavedSpring> springs;
     detail::for_each_record(s.pairs, s.bodies, [&](const detail::PairRecord& r, const detail::PairBlock& block) {
         for (std::size_t c = r.first; c < r.first + std::size_t{r.count}; ++c)
-            if (block.candidates[c].touching())
-                springs.push_back({s.bodies.id(r.i),
-                                   s.bodies.id(r.j),
-                                   block.candidates[c].sphere_a(),
-                                   block.candidates[c].b,
-                                   {block.springs[c].row[0], block.springs[c].row[1], block.springs[c].row[2]}});
+            if (block.candidates[c].touching()) {
+                SavedSpring saved{s.bodies.id(r.i), s.bodies.id(r.j), block.candidates[c].sphere_a(), block.candidates[c].b, {}};
+                for (std::size_t row = 0; row < s.pairs.spring_rows; ++row)
+                    std::copy_n(block.springs[c * s.pairs.spring_rows + row].row, 4, saved.spring + 4 * row);
+                springs.push_back(saved);
+            }
     });
     w.put(static_cast<std::uint64_t>(springs.size()));
     for (const SavedSpring& spring : springs) w.put(spring);
@@ -159,7 +160,7 @@ std::vector<char> payload_of(const Simulation::State& s) {
             if (!wall.watches[i].near) continue;
             for (const detail::WallHistory& h : wall.watches[i].near->history) {
                 w.put(id), w.put(h.sphere), w.put(h.patch);
-                w.put(h.normal), w.put(h.spring);
+                w.put(h.normal), w.put(h.spring), w.put(h.torque), w.put(h.broken);
             }
         }
     }
@@ -196,8 +197,8 @@ Saved read_payload(const std::vector<char>& bytes, const std::string& file, cons
         w.load.force = r.get_vec(), w.load.torque = r.get_vec();
         const std::size_t count = r.get_count(12);
         for (std::size_t k = 0; k < count; ++k) {
-            SavedHistory h{r.get<std::uint32_t>(), r.get<std::uint32_t>(), r.get<std::uint32_t>(), Vec3::Zero(), Vec3::Zero()};
-            h.normal = r.get_vec(), h.spring = r.get_vec();
+            SavedHistory h{r.get<std::uint32_t>(), r.get<std::uint32_t>(), r.get<std::uint32_t>(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0.0};
+            h.normal = r.get_vec(), h.spring = r.get_vec(), h.torque = r.get_vec(), h.broken = r.get<double>();
             if (h.body >= n || h.sphere >= s.templates[saved.bodies.template_of(h.body)].balls.size() || h.patch >= wall.mesh.patch_count) r.broken();
             w.history.push_back(h);
         }
@@ -218,13 +219,13 @@ bool install(Simulation::State& s, const Saved& saved) {
     detail::for_each_record(s.pairs, s.bodies, [&](detail::PairRecord& record, detail::PairBlock& block) {
         const std::uint32_t i = s.bodies.id(record.i), j = s.bodies.id(record.j);
         if (next == saved.springs.size() || saved.springs[next].i != i || saved.springs[next].j != j) return;
-        detail::refresh_candidates(block, record, s.templates[s.bodies.template_of(record.i)], s.templates[s.bodies.template_of(record.j)],
-                                   detail::relative_pose(s.kinematics[record.i], s.kinematics[record.j]), s.pairs.pair_skin,
-                                   static_cast<std::uint32_t>(s.steps));
+        detail::refresh_candidates(s.pairs, block, record, s.templates[s.bodies.template_of(record.i)], s.templates[s.bodies.template_of(record.j)],
+                                   detail::relative_pose(s.kinematics[record.i], s.kinematics[record.j]), static_cast<std::uint32_t>(s.steps));
         for (std::size_t c = record.first; c < record.first + std::size_t{record.count} && next < saved.springs.size(); ++c) {
             const SavedSpring& spring = saved.springs[next];
             if (spring.i != i || spring.j != j || block.candidates[c].key() != ((spring.a << 16) | spring.b)) continue;
-            block.springs[c] = {{spring.spring[0], spring.spring[1], spring.spring[2], 0.0}};
+            for (std::size_t row = 0; row < s.pairs.spring_rows; ++row)
+                std::copy_n(spring.spring + 4 * row, 4, block.springs[c * s.pairs.spring_rows + row].row);
             block.candidates[c].a |= detail::Candidate::touching_bit;
             ++next;
         }
@@ -233,7 +234,7 @@ bool install(Simulation::State& s, const Saved& saved) {
         for (const SavedHistory& h : saved.walls[k].history) {
             detail::WallWatch& watch = s.walls[k].watches[s.bodies.place_of(h.body)];
             if (!watch.near) watch.near = std::make_unique<detail::NearWall>();
-            watch.near->history.push_back({h.sphere, h.patch, h.normal, h.spring});
+            watch.near->history.push_back({h.sphere, h.patch, h.normal, h.spring, h.torque, h.broken});
         }
     return next == saved.springs.size();
 }
@@ -297,7 +298,7 @@ void Simulation::load_checkpoint(const std::filesystem::path& file) {
         s.wall_loads[k] = saved.walls[k].load;
     }
     detail::PairList fresh;
-    fresh.skin = s.pairs.skin, fresh.pair_skin = s.pairs.pair_skin;
+    fresh.skin = s.pairs.skin, fresh.pair_skin = s.pairs.pair_skin, fresh.hold = s.pairs.hold, fresh.spring_rows = s.pairs.spring_rows;
     s.pairs = std::move(fresh);
     s.kinematics.resize(detail::padded_count(s.bodies.size()));
     for (detail::Wall& wall : s.walls) wall.watches.resize(s.bodies.size()), wall.loads.resize(s.bodies.size()), wall.touching.resize(s.bodies.size());
@@ -320,7 +321,17 @@ std::uint64_t fingerprint(const SimulationDefinition& d) {
         hash.add(t.mass_properties.principal_inertia);
     }
     const auto add_material = [&](const ElasticMaterial& m) { hash.add(m.shear_modulus), hash.add(m.poisson_ratio); };
-    const auto add_contact = [&](const PairParameters& p) { hash.add(p.restitution), hash.add(p.sliding_friction), hash.add(p.rolling_friction); };
+    const auto add_contact = [&](const PairParameters& p) {
+        for (const double x : {p.restitution, p.sliding_friction, p.rolling_friction, p.kinetic_friction_ratio, p.relaxation_time, p.attraction_force,
+                               p.cohesion_energy_density, p.work_of_adhesion})
+            hash.add(x);
+    };
+    const Physics& p = d.physics;
+    for (const auto choice : {static_cast<int>(p.contact), static_cast<int>(p.rolling), static_cast<int>(p.cohesion), static_cast<int>(p.clump_contacts)})
+        hash.add(static_cast<std::uint64_t>(choice));
+    for (const double x : {p.linear_stiffness, p.rolling_damping, p.rolling_damping_sliding, p.friction_decay_speed, p.liquid.surface_tension,
+                           p.liquid.contact_angle, p.liquid.bridge_volume})
+        hash.add(x);
     add_material(d.pellet_material);
     add_contact(d.pellet_contact);
     for (const WallDefinition& w : d.walls) {

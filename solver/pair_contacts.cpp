@@ -5,7 +5,7 @@
 namespace pelletlab::solver::detail {
 
 void pair_contact_forces(PairList& list, std::size_t block_index, const std::vector<Kinematic>& kinematics, const std::vector<BodyTemplate>& templates,
-                         const std::vector<const Ball*>& balls, const LawRow& law, const Kernels& kernels, const StepClock& clock) {
+                         const std::vector<const Ball*>& balls, const LawRow& law, ContactKernel contact, const Kernels& kernels, const StepClock& clock) {
     thread_local PairScratchStorage scratch;  // both hold nothing between calls
     thread_local BatchStorage storage;
     PairBlock& block = list.blocks[block_index];
@@ -19,6 +19,8 @@ void pair_contact_forces(PairList& list, std::size_t block_index, const std::vec
                        balls.data(),
                        nullptr,
                        nullptr,
+                       list.spring_rows,
+                       &list.books[block_index],
                        list.loads_j.data() + begin,
                        list.touching.data() + begin,
                        list.own_loads.data(),
@@ -28,15 +30,15 @@ void pair_contact_forces(PairList& list, std::size_t block_index, const std::vec
     for (std::size_t k = 0; k < count; ++k) {
         PairRecord& record = list.records[begin + k];
         if (scratch.scratch.stale[k] || too_generous(record, list.pair_skin, clock.index))
-            refresh_candidates(block, record, templates[record.template_i], templates[record.template_j],
-                               relative_pose(kinematics[record.i], kinematics[record.j]), list.pair_skin, clock.index);
+            refresh_candidates(list, block, record, templates[record.template_i], templates[record.template_j],
+                               relative_pose(kinematics[record.i], kinematics[record.j]), clock.index);
         candidates += record.count;
     }
     view.candidates = block.candidates.data();
     view.springs = block.springs.data();
     storage.batch.size = 0;
-    storage.reserve(candidates);
-    kernels.pair_forces(law, view, scratch.scratch, storage.batch, clock);
+    storage.reserve(candidates, law.booked);
+    (law.reach > 0.0 ? kernels.sticky_pair_forces : kernels.pair_forces)(contact, law, view, scratch.scratch, storage.batch, clock);
 }
 
 }  // namespace pelletlab::solver::detail

@@ -11,7 +11,8 @@ namespace pelletlab::solver::detail {
 
 namespace {
 
-constexpr std::uint32_t pairs_per_block = 96;   ///< about; a block ends with the row of a body
+constexpr std::uint32_t pairs_per_block = 96;  ///< about; a block ends with the row of a body
+constexpr Spring no_spring{{0.0, 0.0, 0.0, 0.0}};
 constexpr std::size_t most_candidates = 65000;  ///< a record counts them in 16 bits
 
 std::size_t padded(std::size_t count) {
@@ -19,14 +20,15 @@ std::size_t padded(std::size_t count) {
 }
 
 /// Copies candidates and springs of one record from its old block to the end of another.
-void carry_over(const PairBlock& from, const PairRecord& old, PairBlock& to, PairRecord& fresh) {
+void carry_over(const PairBlock& from, const PairRecord& old, std::size_t rows, PairBlock& to, PairRecord& fresh) {
     fresh = old;
     fresh.first = static_cast<std::uint32_t>(to.candidates.size());
     fresh.capacity = static_cast<std::uint16_t>(padded(old.count));
     to.candidates.insert(to.candidates.end(), from.candidates.begin() + old.first, from.candidates.begin() + old.first + old.count);
-    to.springs.insert(to.springs.end(), from.springs.begin() + old.first, from.springs.begin() + old.first + old.count);
+    const auto spring_row = [&](std::size_t candidate) { return from.springs.begin() + static_cast<std::ptrdiff_t>(candidate * rows); };
+    to.springs.insert(to.springs.end(), spring_row(old.first), spring_row(old.first + std::size_t{old.count}));
     to.candidates.resize(padded(to.candidates.size()), Candidate{0, 0});
-    to.springs.resize(to.candidates.size(), Spring{{0.0, 0.0, 0.0, 0.0}});
+    to.springs.resize(to.candidates.size() * rows, no_spring);
 }
 
 /// Candidates of a pair and how far apart the nearest spheres are that are not candidates (at least).
@@ -106,8 +108,10 @@ RelativePose relative_pose(const Kinematic& i, const Kinematic& j) {
     return pose;
 }
 
-void refresh_candidates(PairBlock& block, PairRecord& record, const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& pose, double usual_skin,
+void refresh_candidates(const PairList& list, PairBlock& block, PairRecord& record, const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& pose,
                         std::uint32_t step) {
+    const double usual_skin = list.pair_skin;
+    const std::size_t rows = list.spring_rows;
     thread_local Search found;  // scratch
     thread_local std::vector<Spring> springs;
     const std::uint32_t lasted = step - record.refreshed;
@@ -117,14 +121,15 @@ void refresh_candidates(PairBlock& block, PairRecord& record, const BodyTemplate
         skin = lasted < 12 ? std::min(2.0 * old_skin, 4.0 * usual_skin) : (lasted > 100 ? std::max(0.5 * old_skin, 0.05 * usual_skin) : old_skin);
     record.skin = static_cast<float>(skin);
     record.refreshed = step;
-    search(ti, tj, pose, skin, std::max(6.0 * skin, usual_skin), found);
-    springs.assign(found.candidates.size(), Spring{{0.0, 0.0, 0.0, 0.0}});
+    const double listed = std::max(skin, 1.01 * list.hold);  // spheres that hold together beyond touching stay listed
+    search(ti, tj, pose, listed, std::max({6.0 * skin, usual_skin, 1.5 * listed}), found);
+    springs.assign(found.candidates.size() * rows, no_spring);
     std::size_t old = record.first;
     const std::size_t old_end = record.first + record.count;
     for (std::size_t k = 0; k < found.candidates.size(); ++k) {  // both lists are sorted by key
         while (old < old_end && block.candidates[old].key() < found.candidates[k].key()) ++old;
         if (old < old_end && block.candidates[old].key() == found.candidates[k].key()) {
-            springs[k] = block.springs[old];
+            for (std::size_t row = 0; row < rows; ++row) springs[k * rows + row] = block.springs[old * rows + row];
             found.candidates[k].a = block.candidates[old].a;
         }
     }
@@ -136,10 +141,10 @@ void refresh_candidates(PairBlock& block, PairRecord& record, const BodyTemplate
         record.first = static_cast<std::uint32_t>(block.candidates.size());
         record.capacity = static_cast<std::uint16_t>(capacity);
         block.candidates.resize(record.first + capacity, Candidate{0, 0});
-        block.springs.resize(record.first + capacity, Spring{{0.0, 0.0, 0.0, 0.0}});
+        block.springs.resize((record.first + capacity) * rows, no_spring);
     }
     std::copy(found.candidates.begin(), found.candidates.end(), block.candidates.begin() + record.first);
-    std::copy(springs.begin(), springs.end(), block.springs.begin() + record.first);
+    std::copy(springs.begin(), springs.end(), block.springs.begin() + static_cast<std::ptrdiff_t>(record.first * rows));
     record.count = static_cast<std::uint16_t>(count);
     for (int k = 0; k < 3; ++k) record.reference[k] = static_cast<float>(pose.p[k]);
     for (int k = 0; k < 4; ++k) record.reference[3 + k] = static_cast<float>(pose.q[k]);
@@ -163,6 +168,7 @@ void rebuild_pairs(PairList& list, Bodies& bodies, const std::vector<BodyTemplat
     list.own_loads.resize(n);
     list.own_touching.assign(n, 0);
     cut_into_blocks(list, n);
+    list.books.assign(list.blocks.size(), LoadRow{});
     parallel_for(list.blocks.size(), 1, [&](std::size_t index) {
         PairBlock& block = list.blocks[index];
         for (std::uint32_t i = block.body_begin; i < block.body_end; ++i)
@@ -174,7 +180,8 @@ void rebuild_pairs(PairList& list, Bodies& bodies, const std::vector<BodyTemplat
                 if (id_i < old.place_of_id.size() && id_j < old.place_of_id.size()) {
                     const std::uint32_t old_i = old.place_of_id[id_i], old_j = old.place_of_id[id_j];
                     for (std::uint32_t before = old.rows.first[old_i]; before < old.rows.first[old_i + 1]; ++before)
-                        if (old.rows.partner[before] == old_j) carry_over(old.blocks[old.block_of_body[old_i]], old.records[before], block, record);
+                        if (old.rows.partner[before] == old_j)
+                            carry_over(old.blocks[old.block_of_body[old_i]], old.records[before], list.spring_rows, block, record);
                     record.i = i;
                     record.j = list.rows.partner[k];
                 }

@@ -100,6 +100,7 @@ Simulation::State::State(SimulationDefinition given) : definition(std::move(give
             throw bad_input("wall «" + w.name + "»: the feature angle must be in [0, pi)", "30 degrees is usual");
         check_motion(w.motion, w.name);
     }
+    detail::check_physics(d.physics);
     const TimeStepAdvice advice = advise_time_step(d);
     if (d.time_step > advice.contact_limit) {
         std::ostringstream text;
@@ -116,14 +117,24 @@ Simulation::State::State(SimulationDefinition given) : definition(std::move(give
         balls.push_back(t.balls.data());
         constants.push_back(detail::motion_constants(t));
     }
-    pellet_law = detail::make_law_row(d.pellet_material, d.pellet_material, d.pellet_contact, "pellet-pellet");
+    double largest_sphere = 0.0;
+    for (const detail::BodyTemplate& t : templates) largest_sphere = std::max(largest_sphere, t.largest_radius);
+    pellet_law = detail::make_law_row(d.pellet_material, d.pellet_material, d.pellet_contact, d.physics, 0.5 * largest_sphere, "pellet-pellet");
     kernels = choose_kernels(d.instructions);
+    pellet_contact = detail::contact_kernel(*kernels, d.physics, pellet_law);
+    pairs.spring_rows = detail::spring_rows(d.physics);
+    pairs.hold = pellet_law.reach;
     pairs.skin = d.skins.bodies > 0.0 ? d.skins.bodies : 0.15 * largest;
     pairs.pair_skin = d.skins.spheres > 0.0 ? d.skins.spheres : 0.02 * largest;
     wall_skins.faces = d.skins.wall_faces > 0.0 ? d.skins.wall_faces : 0.25 * largest;
     wall_skins.candidates = d.skins.wall_candidates > 0.0 ? d.skins.wall_candidates : 0.02 * largest;
+    pairs.skin = std::max(pairs.skin, 1.01 * pellet_law.reach);
     walls.reserve(d.walls.size());
-    for (const WallDefinition& w : d.walls) walls.emplace_back(w, detail::make_law_row(d.pellet_material, w.material, w.contact, "pellet-" + w.name));
+    for (const WallDefinition& w : d.walls) {
+        const detail::LawRow law = detail::make_law_row(d.pellet_material, w.material, w.contact, d.physics, largest_sphere, "pellet-" + w.name);
+        walls.emplace_back(w, law, detail::contact_kernel(*kernels, d.physics, law), pairs.spring_rows);
+        wall_skins.faces = std::max(wall_skins.faces, 1.01 * law.reach);
+    }
     wall_loads.resize(walls.size());
     domain = d.domain.isEmpty() ? default_domain(d) : d.domain;
     fit_to_body_count();
@@ -136,6 +147,7 @@ void Simulation::State::fit_to_body_count() {
         wall.watches.resize(n);
         wall.loads.resize(n);
         wall.touching.resize(n, 0);
+        wall.books.assign((n + detail::body_grain - 1) / detail::body_grain, detail::LoadRow{});
     }
     if (pairs.body_count != n || pairs.rebuilds == 0) detail::rebuild_pairs(pairs, bodies, templates);
 }
@@ -316,7 +328,7 @@ std::vector<ContactPoint> Simulation::contact_points() const {
             const Vec3 d = pj.to_world({b.x, b.y, b.z}) - pi.to_world({a.x, a.y, a.z});
             const double overlap = a.r + b.r - d.norm();
             if (overlap <= 0.0) continue;
-            const detail::Spring& spring = block.springs[c];
+            const detail::Spring& spring = block.springs[c * s.pairs.spring_rows];
             points.push_back({s.bodies.id(r.i), candidate.sphere_a(), -1, s.bodies.id(r.j), candidate.b, d.normalized(), overlap,
                               pi.orientation * Vec3(spring.row[0], spring.row[1], spring.row[2])});
         }
@@ -388,7 +400,8 @@ std::uint64_t Simulation::state_hash() const {
             if (!block.candidates[c].touching()) continue;
             hash.add((std::uint64_t{s.bodies.id(r.i)} << 32) | s.bodies.id(r.j));
             hash.add(std::uint64_t{block.candidates[c].key()});
-            for (const double x : block.springs[c].row) hash.add(x);
+            for (std::size_t row = c * s.pairs.spring_rows; row < (c + 1) * s.pairs.spring_rows; ++row)
+                for (const double x : block.springs[row].row) hash.add(x);
         }
     });
     for (const detail::Wall& wall : s.walls) {
@@ -406,6 +419,8 @@ std::uint64_t Simulation::state_hash() const {
                 hash.add(std::uint64_t{h.patch});
                 hash.add(h.normal);
                 hash.add(h.spring);
+                hash.add(h.torque);
+                hash.add(h.broken);
             }
         }
     }

@@ -14,6 +14,7 @@
 #include "core/rigid_template.hpp"
 #include "core/triangle_mesh.hpp"
 #include "core/vec.hpp"
+#include "solver/physics.hpp"
 #include "solver/wall_report.hpp"
 
 namespace pelletlab::solver {
@@ -28,6 +29,12 @@ struct PairParameters {
     double restitution = 0.4;
     double sliding_friction = 0.7;
     double rolling_friction = 0.05;
+    // Of laws that ask for them; see solver/physics.hpp.
+    double kinetic_friction_ratio = 1.0;  ///< μ_k / μ_s: μ(v) = μ_k + (μ_s − μ_k) / (1 + |v_t| / v_c), v_c = Physics::friction_decay_speed; 1: constant
+    double relaxation_time = 0.0;         ///< [s], A of ContactModel::viscoelastic
+    double attraction_force = 0.0;        ///< [N], of Cohesion::constant_force
+    double cohesion_energy_density = 0.0;  ///< [J/m³], of Cohesion::sjkr
+    double work_of_adhesion = 0.0;         ///< [J/m²], of Cohesion::jkr: twice the surface energy of equal materials
 };
 
 /// Rigid rotation of a wall about a fixed axis, starting when the simulation is told to (Simulation::set_wall_motion).
@@ -68,6 +75,7 @@ struct SimulationDefinition {
     Box domain;                        ///< a body whose centre leaves it is an Error(numerical) with place, time and cause; empty: the walls' box, enlarged
     SearchSkins skins;
     InstructionSet instructions = InstructionSet::fastest;
+    Physics physics;
 };
 
 struct BodyPlacement {

@@ -13,7 +13,7 @@ namespace pelletlab::solver {
 
 namespace {
 
-constexpr std::size_t body_grain = 256;  ///< fixed, so sums do not depend on the number of threads
+using detail::body_grain;
 
 /// Adds the time since the last lap to a stage.
 class StopWatch {
@@ -116,14 +116,15 @@ void Simulation::State::find_neighbours_if_needed(double furthest2) {
 }
 
 void Simulation::State::compute_pair_forces(const detail::StepClock& clock) {
-    parallel_for(pairs.blocks.size(), 1,
-                 [&](std::size_t block) { detail::pair_contact_forces(pairs, block, kinematics, templates, balls, pellet_law, *kernels, clock); });
+    parallel_for(pairs.blocks.size(), 1, [&](std::size_t block) {
+        detail::pair_contact_forces(pairs, block, kinematics, templates, balls, pellet_law, pellet_contact, *kernels, clock);
+    });
 }
 
 void Simulation::State::compute_wall_forces(const detail::StepClock& clock) {
     for (detail::Wall& wall : walls)
         parallel_blocks(bodies.size(), body_grain, [&](std::size_t begin, std::size_t end) {
-            detail::wall_contact_forces(wall, begin, end, kinematics, bodies, templates, wall_skins, *kernels, clock);
+            detail::wall_contact_forces(wall, begin / body_grain, begin, end, kinematics, bodies, templates, wall_skins, clock);
         });
 }
 

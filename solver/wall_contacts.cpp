@@ -81,7 +81,7 @@ void refresh(const Wall& wall, NearWall& near, const RelativePose& pose, const B
     const Mat3 r = rotation_of(pose);
     const Vec3 p = vec(pose.p);
     near.candidates.clear();
-    double nearest_other = std::max(8.0 * near.skin, usual_skin);
+    double nearest_other = std::max({8.0 * near.skin, usual_skin, 1.6 * wall.law.reach});
     for (std::size_t a = 0; a < t.balls.size(); ++a) {
         const auto& ball = t.balls[a];
         const Vec3 c = r * Vec3(ball.x, ball.y, ball.z) + p;
@@ -90,7 +90,7 @@ void refresh(const Wall& wall, NearWall& near, const RelativePose& pose, const B
             const double height = std::abs(wall.mesh.normals[f].dot(c - wall.mesh.corner(f, 0)));
             if (height - ball.r >= nearest_other) continue;
             const double gap = std::sqrt(closest_point(wall.mesh, f, c).distance2) - ball.r;
-            if (gap < near.skin) {
+            if (gap < std::max(near.skin, 1.01 * wall.law.reach)) {
                 near.candidates.push_back({static_cast<std::uint32_t>(a), f});
             } else {
                 nearest_other = std::min(nearest_other, gap);
@@ -117,13 +117,15 @@ Vec3 turned(const Vec3& a, const Vec3& from, const Vec3& to) {
     return a * c + axis.cross(a) + axis * (axis.dot(a) / (1.0 + c));
 }
 
-/// The spring that contact (sphere, patch, normal) inherits: from the same patch first, then from any contact of the sphere that pointed the same
+/// The history that contact (sphere, patch, normal) inherits: from the same patch first, then from any contact of the sphere that pointed the same
 /// way (the hand-over at an edge); each old contact serves once.
-Vec3 inherited_spring(const std::vector<WallHistory>& history, std::vector<std::uint8_t>& used, std::size_t& cursor, std::uint32_t sphere, std::uint32_t patch,
+WallHistory inherited(const std::vector<WallHistory>& history, std::vector<std::uint8_t>& used, std::size_t& cursor, std::uint32_t sphere, std::uint32_t patch,
                       const Vec3& normal) {
+    WallHistory fresh;
+    fresh.sphere = sphere, fresh.patch = patch, fresh.normal = normal;
     constexpr double same_way = 0.70710678;  // within 45°
     while (cursor < history.size() && history[cursor].sphere < sphere) ++cursor;
-    if (cursor == history.size() || history[cursor].sphere != sphere) return Vec3::Zero();
+    if (cursor == history.size() || history[cursor].sphere != sphere) return fresh;
     for (const bool same_patch : {true, false}) {
         double best = same_way;
         std::size_t choice = history.size();
@@ -134,17 +136,21 @@ Vec3 inherited_spring(const std::vector<WallHistory>& history, std::vector<std::
         }
         if (choice < history.size()) {
             used[choice] = 1;
-            return turned(history[choice].spring, history[choice].normal, normal);
+            const WallHistory& old = history[choice];
+            fresh.spring = turned(old.spring, old.normal, normal);
+            fresh.torque = turned(old.torque, old.normal, normal);
+            fresh.broken = old.broken;
+            return fresh;
         }
     }
-    return Vec3::Zero();
+    return fresh;
 }
 
 void add_contact(const Wall& wall, const NearWall& near, std::uint32_t sphere, const Ball& ball, const Vec3& c, const Hit& hit, Scratch& s) {
     const double distance = std::sqrt(hit.distance2);
     const Vec3 normal = distance > 0.0 ? Vec3((c - hit.point) / distance) : wall.mesh.normals[hit.face];
     const std::uint32_t patch = wall.mesh.patch[hit.face];
-    const Vec3 spring = inherited_spring(near.history, s.used, s.cursor, sphere, patch, normal);
+    const WallHistory history = inherited(near.history, s.used, s.cursor, sphere, patch, normal);
     ContactBatch& b = s.storage.batch;
     const std::size_t n = b.size++;
     const Vec3 d = normal * std::max(distance, 1e-200);
@@ -153,8 +159,28 @@ void add_contact(const Wall& wall, const NearWall& near, std::uint32_t sphere, c
     b.ra[n] = 0.0, b.rb[n] = ball.r;
     b.slot[n] = static_cast<std::uint32_t>(s.slots.size());
     b.spring[n] = static_cast<std::uint32_t>(n);
-    s.fresh.push_back({sphere, patch, normal, spring});
-    s.springs.push_back({{spring.x(), spring.y(), spring.z(), 0.0}});
+    s.fresh.push_back(history);
+    s.springs.push_back({{history.spring.x(), history.spring.y(), history.spring.z(), history.broken}});
+    if (wall.spring_rows > 1) s.springs.push_back({{history.torque.x(), history.torque.y(), history.torque.z(), 0.0}});
+}
+
+bool has_touched(const std::vector<WallHistory>& history, std::uint32_t sphere) {
+    return std::any_of(history.begin(), history.end(), [sphere](const WallHistory& h) { return h.sphere == sphere; });
+}
+
+/// ClumpPolicy::shared: the contacts of one body with one patch carry shares of one load, see share_loads of pair_kernel_impl.hpp.
+void share_loads(const Scratch& s, ContactBatch& b, std::size_t first) {
+    for (std::size_t c = first; c < b.size; ++c) {
+        double sum = 0.0, own = 0.0, contacts = 0.0;
+        for (std::size_t d = first; d < b.size; ++d) {
+            if (s.fresh[d].patch != s.fresh[c].patch) continue;
+            const double overlap = std::max(0.0, b.rb[d] - std::sqrt(b.dx[d] * b.dx[d] + b.dy[d] * b.dy[d] + b.dz[d] * b.dz[d]));
+            sum += overlap;
+            contacts += 1.0;
+            if (d == c) own = overlap;
+        }
+        b.share[c] = sum > 0.0 ? own / sum : 1.0 / contacts;
+    }
 }
 
 /// Puts the contacts of one body into the batch. True when there are any.
@@ -162,7 +188,7 @@ bool collect(const Wall& wall, const NearWall& near, const RelativePose& pose, c
     const Mat3 r = rotation_of(pose);
     const Vec3 p = vec(pose.p);
     const std::size_t before = s.storage.batch.size;
-    s.storage.reserve(before + near.candidates.size());
+    s.storage.reserve(before + near.candidates.size(), wall.law.booked);
     s.used.assign(near.history.size(), 0);
     s.cursor = 0;
     for (std::size_t k = 0; k < near.candidates.size();) {
@@ -170,9 +196,10 @@ bool collect(const Wall& wall, const NearWall& near, const RelativePose& pose, c
         const Ball& ball = t.balls[sphere];
         const Vec3 c = r * Vec3(ball.x, ball.y, ball.z) + p;
         s.hits.clear();
+        const double reach = ball.r + (wall.law.reach > 0.0 && has_touched(near.history, sphere) ? wall.law.reach : 0.0);
         for (; k < near.candidates.size() && near.candidates[k].sphere == sphere; ++k) {
             Hit hit;
-            if (touches(wall.mesh, near.candidates[k].face, c, ball.r, hit)) s.hits.push_back(hit);
+            if (touches(wall.mesh, near.candidates[k].face, c, reach, hit)) s.hits.push_back(hit);
         }
         if (s.hits.size() == 1) {
             if (is_local_minimum(wall.mesh, s.hits[0], c)) add_contact(wall, near, sphere, ball, c, s.hits[0], s);
@@ -184,14 +211,14 @@ bool collect(const Wall& wall, const NearWall& near, const RelativePose& pose, c
     return s.storage.batch.size > before;
 }
 
-PairSlot slot_of(const Mat3& to_wall, const Kinematic& wall, const Kinematic& body, const RelativePose& pose, std::size_t contacts) {
+PairSlot slot_of(const Mat3& to_wall, const Kinematic& wall, const Kinematic& body, const RelativePose& pose, double inertia_share) {
     const Vec3 v = to_wall * (vec(body.velocity()) - vec(wall.velocity())), spin = to_wall * (vec(body.spin()) - vec(wall.spin())),
                body_spin = to_wall * vec(body.spin());
     const Vec3 at_origin = v - body_spin.cross(vec(pose.p));
     PairSlot slot;
     for (int k = 0; k < 3; ++k) slot.row[k] = at_origin[k], slot.row[3 + k] = spin[k];
     slot.row[6] = 1.0 / body.motion[6];
-    slot.row[7] = rolling_share / (body.motion[7] * static_cast<double>(contacts));
+    slot.row[7] = inertia_share / body.motion[7];
     return slot;
 }
 
@@ -208,8 +235,8 @@ bool moved_away(const WallWatch& watch, const Matrix3& frame, const Kinematic& w
 
 }  // namespace
 
-Wall::Wall(const WallDefinition& d, const LawRow& row)
-    : name(d.name), mesh(make_wall_mesh(d.mesh, d.feature_angle, d.name)), query(mesh), law(row), motion(d.motion) {
+Wall::Wall(const WallDefinition& d, const LawRow& row, ContactKernel kernel, std::size_t rows)
+    : name(d.name), mesh(make_wall_mesh(d.mesh, d.feature_angle, d.name)), query(mesh), law(row), contact(kernel), spring_rows(rows), motion(d.motion) {
     law.wall = true;
     move_wall(*this, 0, 0.0);
 }
@@ -234,8 +261,8 @@ void move_wall(Wall& wall, std::uint64_t step, double dt) {
     wall.record.place[7] = wall.record.motion[6] = wall.record.motion[7] = 0.0;
 }
 
-void wall_contact_forces(Wall& wall, std::size_t begin, std::size_t end, const std::vector<Kinematic>& kinematics, const Bodies& bodies,
-                         const std::vector<BodyTemplate>& templates, const WallSkins& skins, const Kernels& kernels, const StepClock& clock) {
+void wall_contact_forces(Wall& wall, std::size_t block, std::size_t begin, std::size_t end, const std::vector<Kinematic>& kinematics, const Bodies& bodies,
+                         const std::vector<BodyTemplate>& templates, const WallSkins& skins, const StepClock& clock) {
     thread_local Scratch s;  // grows once, holds nothing between calls
     s.storage.batch.size = 0;
     s.slots.clear();
@@ -263,13 +290,21 @@ void wall_contact_forces(Wall& wall, std::size_t begin, std::size_t end, const s
             continue;
         }
         const auto contact_end = static_cast<std::uint32_t>(s.storage.batch.size);
-        s.slots.push_back(slot_of(to_wall, wall.record, kinematics[i], pose, contact_end - first));
+        const double inertia_share = wall.spring_rows > 1 ? 1.0 : rolling_share / static_cast<double>(contact_end - first);
+        s.slots.push_back(slot_of(to_wall, wall.record, kinematics[i], pose, inertia_share));
+        if (wall.law.shared) share_loads(s, s.storage.batch, first);
         s.active.push_back({static_cast<std::uint32_t>(i), first, contact_end, vec(pose.p)});
     }
 
     ContactBatch& batch = s.storage.batch;
     batch.springs = s.springs.data();
-    kernels.contact_forces(wall.law, batch, s.slots.data(), clock);
+    wall.contact(wall.law, batch, s.slots.data(), clock);
+    if (wall.law.booked) {
+        LoadRow& book = wall.books[block];
+        book = LoadRow{};
+        for (std::size_t c = 0; c < batch.size; ++c)
+            for (int column = 0; column < 8; ++column) book.row[column] += batch.book[c].row[column];
+    }
 
     for (const Active& active : s.active) {
         Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
@@ -280,7 +315,13 @@ void wall_contact_forces(Wall& wall, std::size_t begin, std::size_t end, const s
         if (clock.spring_step > 0.0) {
             std::vector<WallHistory>& history = wall.watches[active.body].near->history;
             history.assign(s.fresh.begin() + active.first_contact, s.fresh.begin() + active.contact_end);
-            for (std::uint32_t c = active.first_contact; c < active.contact_end; ++c) history[c - active.first_contact].spring = vec(s.springs[c].row);
+            for (std::uint32_t c = active.first_contact; c < active.contact_end; ++c) {
+                WallHistory& kept = history[c - active.first_contact];
+                const Spring* rows = &s.springs[c * wall.spring_rows];
+                kept.spring = vec(rows[0].row);
+                kept.broken = rows[0].row[3];
+                if (wall.spring_rows > 1) kept.torque = vec(rows[1].row);
+            }
         }
         const Vec3 world_force = to_world * force, world_torque = to_world * (torque - active.place.cross(force));
         LoadRow& load = wall.loads[active.body];

@@ -16,22 +16,24 @@ public:
     ContactBatch batch{};
 
     /// Makes room for `count` contacts; what the batch holds stays.
-    void reserve(std::size_t count) {
+    void reserve(std::size_t count, bool booked) {
         if (count > capacity_) grow(count);
+        if (booked && books_.size() < results_.size()) books_.resize(results_.size());
+        batch.book = books_.data();
     }
 
 private:
-    static constexpr std::size_t array_count = 8;
+    static constexpr std::size_t array_count = 9;
     std::size_t capacity_ = 0;
     std::vector<double> numbers_;
     std::vector<std::uint32_t> indices_;
-    std::vector<LoadRow> results_;
+    std::vector<LoadRow> results_, books_;
 
     void grow(std::size_t count) {
         const std::size_t larger = std::max<std::size_t>({count, 2 * capacity_, 256}), stride = larger + 2 * widest;
         std::vector<double> numbers(array_count * stride);
         std::vector<std::uint32_t> indices(2 * stride);
-        double** fields[array_count] = {&batch.dx, &batch.dy, &batch.dz, &batch.ax, &batch.ay, &batch.az, &batch.ra, &batch.rb};
+        double** fields[array_count] = {&batch.dx, &batch.dy, &batch.dz, &batch.ax, &batch.ay, &batch.az, &batch.ra, &batch.rb, &batch.share};
         for (std::size_t f = 0; f < array_count; ++f) {
             double* target = numbers.data() + f * stride;
             std::copy_n(*fields[f], batch.size, target);

@@ -17,10 +17,10 @@ struct BodyTemplate {
     double mass = 0.0, inverse_mass = 0.0;
     Vec3 inertia = Vec3::Zero(), inverse_inertia = Vec3::Zero();
     double smallest_inertia = 0.0;
-    double bounding_radius = 0.0;  ///< [m], about the centre of mass
-    double largest_offset = 0.0;   ///< [m], of a sphere centre from the centre of mass
-    double smallest_radius = 0.0;  ///< [m]
-    double density = 0.0;          ///< [kg/m³], for the Rayleigh step
+    double bounding_radius = 0.0;                        ///< [m], about the centre of mass
+    double largest_offset = 0.0;                         ///< [m], of a sphere centre from the centre of mass
+    double smallest_radius = 0.0, largest_radius = 0.0;  ///< [m], of its spheres
+    double density = 0.0;                                ///< [kg/m³], for the Rayleigh step
     // Free rotation: see motion.hpp.
     Vec3 axis = Vec3::UnitZ();         ///< symmetry axis (the two other moments are the closest)
     Vec3 second_axis = Vec3::UnitX();  ///< the axis that carries what is left of asymmetry

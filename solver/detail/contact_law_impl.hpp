@@ -1,5 +1,10 @@
-// Contact laws as small policies, inlined into the kernel. A law turns the state of one contact (or of a register full of them) into force, moment
-// and the new tangential displacement. Included by kernel files only.
+// Contact laws as small policies, inlined into the kernel. A law turns the state of one contact (or of a register full of them) into force and
+// the new tangential displacement. Included by kernel files only.
+//
+// All laws have the same build:
+//   F_n   along the normal: elastic part and damping part, the law's own
+//   F_t = −S_t s − c_t v_t, |F_t| ≤ μ max(F_n, 0), s the tangential displacement; where the limit acts, s is cut back so that the spring alone carries it.
+// m* is that of whole bodies (or what LawRow and the clump policy make of it). S_n is the normal stiffness at the present overlap, S_t = (4 G*/E*) S_n.
 #pragma once
 
 #include "solver/detail/kernels.hpp"
@@ -16,78 +21,126 @@ struct ContactState {
     Triple<V> velocity;  ///< [m/s], of j against i at the contact point
     Triple<V> spin;      ///< [rad/s], ω_j − ω_i
     V mass;              ///< [kg], m*
-    V inertia;           ///< [kg m²], what rolling friction of this contact may stop in one step
+    V inertia;           ///< [kg m²], what rolling friction of this contact may stop in one step; with elastic–plastic rolling the reduced moment
     Triple<V> spring;    ///< [m], total tangential displacement, tangent to the present normal
 };
 
 template <class V>
 struct ContactResult {
-    V normal_force;
-    Triple<V> force;   ///< on j
-    Triple<V> moment;  ///< on j, rolling friction
+    V normal_force;   ///< without cohesion: what friction and rolling friction go by
+    Triple<V> force;  ///< on j
     Triple<V> spring;
+};
+
+template <class V>
+struct NormalForce {
+    V stiffness;           ///< S_n [N/m]
+    V elastic;             ///< [N]
+    V total;               ///< [N], with damping
+    V tangential_damping;  ///< c_t [N s/m]
 };
 
 /// Hertz–Mindlin as EDEM states it (help.altair.com/EDEM, "Hertz-Mindlin (no slip)"):
 ///   S_n = 2 E* sqrt(R* d),  F_n = (2/3) S_n d − c_n v_n,  c_n = −2 sqrt(5/6) β sqrt(S_n m*),  β = ln e / sqrt(ln² e + π²)
-///   S_t = 8 G* sqrt(R* d),  F_t = −S_t s − c_t v_t,       c_t = −2 sqrt(5/6) β sqrt(S_t m*),  s the total tangential displacement
-///   |F_t| ≤ μ_s max(F_n, 0); where the limit acts, s is cut back so that the spring alone carries it.
-/// m* is that of whole bodies. F_n may pull at the end of a contact: that is what gives the wanted restitution.
+///   S_t = 8 G* sqrt(R* d),  c_t = −2 sqrt(5/6) β sqrt(S_t m*),  s the total tangential displacement
+/// F_n may pull at the end of a contact: that is what gives the wanted restitution.
 struct HertzMindlinEdem {
+    static constexpr bool hertz = true, incremental = false;
     template <class L, class V = typename L::Real>
-    static ContactResult<V> force(const LawRow& law, const ContactState<V>& c) {
-        const V zero = L::all(0.0);
-        const V stiffness = L::all(law.normal_stiffness) * L::square_root(c.radius * c.overlap);
+    static NormalForce<V> normal(const LawRow& law, const ContactState<V>& c, const V& overlap, const V& normal_speed) {
+        const V stiffness = L::all(law.normal_stiffness) * L::square_root(c.radius * overlap);
         const V damping_root = L::square_root(stiffness * c.mass);
-        const V normal_speed = dot(c.velocity, c.normal);
-        const V normal_force = L::all(2.0 / 3.0) * stiffness * c.overlap - L::all(law.damping) * damping_root * normal_speed;
-        const Triple<V> tangential_velocity = c.velocity - c.normal * normal_speed;
-        const V tangential_stiffness = L::all(law.tangential_ratio) * stiffness;
-        const V tangential_damping = L::all(law.tangential_damping) * damping_root;
-
-        Triple<V> tangential = c.spring * (zero - tangential_stiffness) - tangential_velocity * tangential_damping;
-        const V limit = L::all(law.sliding_friction) * L::larger(normal_force, zero);
-        const V size = L::square_root(dot(tangential, tangential));
-        const auto slides = L::greater(size, limit);
-        const V scale = L::choose(slides, limit / L::choose(slides, size, L::all(1.0)), L::all(1.0));
-        tangential = tangential * scale;
-        const V compliance = L::all(-1.0) / tangential_stiffness;
-        ContactResult<V> result;
-        result.normal_force = normal_force;
-        result.force = c.normal * normal_force + tangential;
-        result.spring.x = L::choose(slides, tangential.x * compliance, c.spring.x);
-        result.spring.y = L::choose(slides, tangential.y * compliance, c.spring.y);
-        result.spring.z = L::choose(slides, tangential.z * compliance, c.spring.z);
-        return result;
+        const V elastic = L::all(2.0 / 3.0) * stiffness * overlap;
+        return {stiffness, elastic, elastic - L::all(law.damping) * damping_root * normal_speed, L::all(law.tangential_damping) * damping_root};
     }
 };
 
-/// Constant-torque rolling friction on the relative spin (type A of Ai et al. 2011): M = −μ_r R* F_n ω/|ω|, and never more than
-/// c.inertia |ω| / Δt, so that all contacts of a body together cannot turn its spin round within one step: near rest the law becomes viscous
-/// instead of chattering.
-struct RollingConstantTorque {
+/// Hertz–Mindlin whose impulse is exact: F_n = max(0, (2/3) S_n d − c_n v_n) never pulls, and law.damping is calibrated (materials.cpp) so that a normal
+/// impact returns with the wanted restitution nevertheless. The tangential force grows by −S_t v_t Δt and, when the overlap shrinks, shrinks with S_t:
+/// the rule that creates no energy (Elata & Berryman 1996).
+struct HertzMindlinImpulseExact {
+    static constexpr bool hertz = true, incremental = true;
     template <class L, class V = typename L::Real>
-    static Triple<V> moment(const LawRow& law, const ContactState<V>& c, V normal_force, double step) {
-        const V zero = L::all(0.0);
-        const V torque = L::all(law.rolling_friction) * c.radius * L::larger(normal_force, zero);
-        const V spin = L::larger(L::square_root(dot(c.spin, c.spin)), L::all(1e-200));
-        const V rate = L::smaller(torque / spin, c.inertia * L::all(1.0 / step));
-        return c.spin * (zero - rate);
+    static NormalForce<V> normal(const LawRow& law, const ContactState<V>& c, const V& overlap, const V& normal_speed) {
+        NormalForce<V> f = HertzMindlinEdem::normal<L>(law, c, overlap, normal_speed);
+        f.total = L::larger(f.total, L::all(0.0));
+        return f;
     }
 };
 
-/// The old displacement turned into the present tangent plane (length kept) and turned about the normal with the mean spin of the two bodies, then
-/// grown by the tangential velocity. The frame turns with i, so the mean spin seen in it is half the relative spin.
+/// Linear spring and dashpot (Cundall & Strack 1979): F_n = k_n d − c_n v_n, c_n = −2 β sqrt(k_n m*): restitution e at every speed. May pull at the end.
+struct LinearSpringDashpot {
+    static constexpr bool hertz = false, incremental = false;
+    template <class L, class V = typename L::Real>
+    static NormalForce<V> normal(const LawRow& law, const ContactState<V>& c, const V& overlap, const V& normal_speed) {
+        const V stiffness = L::all(law.normal_stiffness);
+        const V damping_root = L::square_root(stiffness * c.mass);
+        const V elastic = stiffness * overlap;
+        return {stiffness, elastic, elastic - L::all(law.damping) * damping_root * normal_speed, L::all(law.tangential_damping) * damping_root};
+    }
+};
+
+/// Viscoelastic spheres (Brilliantov, Spahn, Hertzsch & Pöschel 1996): F_n = max(0, (2/3) S_n d − A S_n v_n), law.damping = A [s], a constant of the material;
+/// restitution falls with speed as 1 − C₁ … v^(1/5). The tangential direction has the same relaxation time: c_t = A S_t.
+struct Viscoelastic {
+    static constexpr bool hertz = true, incremental = false;
+    template <class L, class V = typename L::Real>
+    static NormalForce<V> normal(const LawRow& law, const ContactState<V>& c, const V& overlap, const V& normal_speed) {
+        const V stiffness = L::all(law.normal_stiffness) * L::square_root(c.radius * overlap);
+        const V elastic = L::all(2.0 / 3.0) * stiffness * overlap;
+        const V total = elastic - L::all(law.damping) * stiffness * normal_speed;
+        return {stiffness, elastic, L::larger(total, L::all(0.0)), L::all(law.tangential_damping) * stiffness};
+    }
+};
+
+/// A vector that belongs to the contact, turned into the present tangent plane (length kept) and turned about the normal with the mean spin of the two
+/// bodies. The frame turns with i, so the mean spin seen in it is half the relative spin.
 template <class L, class V = typename L::Real>
-inline Triple<V> carry_spring(const Triple<V>& old, const Triple<V>& normal, const Triple<V>& velocity, const Triple<V>& spin, double spring_step) {
+inline Triple<V> carried(const Triple<V>& old, const Triple<V>& normal, const Triple<V>& spin, double spring_step) {
     const V before = dot(old, old);
-    Triple<V> spring = old - normal * dot(old, normal);
-    const V after = dot(spring, spring);
+    Triple<V> now = old - normal * dot(old, normal);
+    const V after = dot(now, now);
     const auto keeps = L::greater(after, L::all(0.0));
-    spring = spring * L::choose(keeps, L::square_root(before / L::choose(keeps, after, L::all(1.0))), L::all(1.0));
-    spring = spring + cross(normal, spring) * (L::all(0.5 * spring_step) * dot(spin, normal));
-    const Triple<V> tangential_velocity = velocity - normal * dot(velocity, normal);
-    return spring + tangential_velocity * L::all(spring_step);
+    now = now * L::choose(keeps, L::square_root(before / L::choose(keeps, after, L::all(1.0))), L::all(1.0));
+    return now + cross(normal, now) * (L::all(0.5 * spring_step) * dot(spin, normal));
+}
+
+/// S_n of the last step / S_n now.
+template <class Law, class L, class V = typename L::Real>
+inline V stiffness_ratio(const V& overlap, const V& normal_speed, double spring_step) {
+    if constexpr (!Law::hertz) return L::all(1.0);
+    const V before = L::larger(overlap + normal_speed * L::all(spring_step), L::all(0.0));
+    return L::square_root(before / L::larger(overlap, L::all(1e-300)));
+}
+
+/// The displacement that an incremental spring has after its stiffness has changed: force is kept where the contact is loaded, displacement where it is
+/// unloaded.
+template <class Law, class L, class V = typename L::Real>
+inline Triple<V> rescaled(const Triple<V>& spring, const ContactState<V>& c, double spring_step) {
+    if constexpr (!Law::incremental) return spring;
+    const V ratio = stiffness_ratio<Law, L>(c.overlap, dot(c.velocity, c.normal), spring_step);
+    return spring * L::smaller(ratio, L::all(1.0));
+}
+
+/// Normal force as given, friction limited by `limit_force`.
+template <class L, class V = typename L::Real>
+inline ContactResult<V> with_friction(const ContactState<V>& c, const NormalForce<V>& normal, const V& tangential_ratio, const V& limit,
+                                      const Triple<V>& tangential_velocity) {
+    const V zero = L::all(0.0);
+    const V tangential_stiffness = tangential_ratio * normal.stiffness;
+    Triple<V> tangential = c.spring * (zero - tangential_stiffness) - tangential_velocity * normal.tangential_damping;
+    const V size = L::square_root(dot(tangential, tangential));
+    const auto slides = L::greater(size, limit);
+    const V scale = L::choose(slides, limit / L::choose(slides, size, L::all(1.0)), L::all(1.0));
+    tangential = tangential * scale;
+    const V compliance = L::all(-1.0) / tangential_stiffness;
+    ContactResult<V> result;
+    result.normal_force = normal.total;
+    result.force = c.normal * normal.total + tangential;
+    result.spring.x = L::choose(slides, tangential.x * compliance, c.spring.x);
+    result.spring.y = L::choose(slides, tangential.y * compliance, c.spring.y);
+    result.spring.z = L::choose(slides, tangential.z * compliance, c.spring.z);
+    return result;
 }
 
 }  // namespace

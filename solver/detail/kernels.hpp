@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "solver/physics.hpp"
+
 namespace pelletlab::solver::detail {
 
 /// A sphere of a template, body frame [m].
@@ -49,7 +51,8 @@ struct Candidate {
     std::uint32_t key() const { return (static_cast<std::uint32_t>(sphere_a()) << 16) | b; }
 };
 
-/// Tangential displacement [m] in the frame of body i (0–2).
+/// What a contact remembers, in the frame of body i: the tangential displacement [m] (0–2) and, of cohesive contacts, 1 once its bridge is broken (3).
+/// With elastic–plastic rolling a second row follows: the rolling spring's torque [N m] (0–2).
 struct alignas(32) Spring {
     double row[4];
 };
@@ -64,15 +67,31 @@ struct alignas(64) LoadRow {
     const double* torque() const { return row + 3; }
 };
 
-/// Constants of one pair of materials; see contact_law_impl.hpp for the formulas.
+/// Constants of one pair of materials; see contact_law_impl.hpp, rolling_law_impl.hpp and cohesion_impl.hpp for the formulas.
 struct LawRow {
-    double normal_stiffness = 0.0;    ///< 2 E* [Pa]
+    double normal_stiffness = 0.0;    ///< 2 E* [Pa]; of the linear law k_n [N/m]
     double tangential_ratio = 0.0;    ///< S_t / S_n = 4 G*/E*
-    double damping = 0.0;             ///< −2 sqrt(5/6) β ≥ 0, for the normal direction
-    double tangential_damping = 0.0;  ///< the same times sqrt(S_t / S_n)
-    double sliding_friction = 0.0;
+    double damping = 0.0;             ///< ≥ 0, of the normal direction: the law's own number, see materials.cpp
+    double tangential_damping = 0.0;  ///< the same for the tangential direction
+    double sliding_friction = 0.0;    ///< μ; the static one where friction falls with speed
     double rolling_friction = 0.0;
     bool wall = false;  ///< the first one is a wall: R* = r_j, and the contact point lies on the wall
+
+    // What only laws with extras look at.
+    double friction_drop = 0.0;      ///< μ_static − μ_kinetic
+    double friction_speed = 1.0;     ///< v_c [m/s]
+    double rolling_stiffness = 0.0;  ///< 2.25 μ_r²
+    double rolling_damping = 0.0;    ///< 2 η_r
+    double rolling_damping_full = 0.0;
+    Cohesion cohesion = Cohesion::none;
+    double cohesion_strength = 0.0;  ///< force [N], 2π × energy density [Pa], 4 π w / (2 E*) [m], or 4 π γ cos θ [N/m]: by the kind of cohesion
+    double half_modulus = 0.0;       ///< E* [Pa] of JKR
+    double bridge_volume = 0.0;      ///< [m³]
+    double reach = 0.0;              ///< [m], the gap beyond which no contact of these materials holds together
+    bool shared = false;             ///< ClumpPolicy::shared
+    bool booked = false;             ///< fill ContactBatch::book
+
+    bool plain() const { return cohesion == Cohesion::none && friction_drop == 0.0 && !shared && !booked; }
 };
 
 /// What every contact of a step shares.
@@ -97,8 +116,22 @@ struct ContactBatch {
     double *ra, *rb;        ///< [m], radii; ra = 0 for a wall
     std::uint32_t* slot;    ///< pair
     std::uint32_t* spring;  ///< tangential displacement: index into `springs`, different for every contact
-    Spring* springs;        ///< in and out
+    Spring* springs;        ///< in and out; as many rows a contact as the law remembers
+    double* share;          ///< of the load of its pair that a contact carries; filled where the law says so
+    LoadRow* book;          ///< out, where the law says so: see BookColumn
     LoadRow* result;        ///< out: force on j, torque on j about the origin of frame i; row[6] is the normal force
+};
+
+/// Columns of ContactBatch::book [J]. Stored energy at this instant, then what went in this step.
+enum BookColumn : std::size_t {
+    book_elastic_normal,
+    book_elastic_tangential,
+    book_elastic_rolling,
+    book_normal_damping,
+    book_tangential_damping,
+    book_sliding,
+    book_rolling,
+    book_fed,  ///< put in by forces without a potential: cohesion, springs whose stiffness changes while they are loaded
 };
 
 inline constexpr std::size_t widest = 8;  ///< lanes of the widest register
@@ -131,6 +164,8 @@ struct PairBlockView {
     const Ball* const* balls;  ///< per template
     Candidate* candidates;
     Spring* springs;
+    std::size_t spring_rows;     ///< per candidate
+    LoadRow* book;               ///< out: sum over the contacts of the block, where the law books
     LoadRow* loads_j;            ///< out, per pair: what the second body feels, world, about its centre; only where touching
     std::uint8_t* touching;      ///< out, per pair
     LoadRow* own_loads;          ///< out, per body: what it feels from the pairs in which it is the first; only where own_touching
@@ -175,6 +210,11 @@ struct GatherView {
     double gravity[3];
 };
 
+/// Forces of all contacts of a batch; `slots` are those of the pairs.
+using ContactKernel = void (*)(const LawRow& law, ContactBatch& batch, const PairSlot* slots, const StepClock& clock);
+
+inline constexpr std::size_t contact_model_count = 4, rolling_model_count = 3;
+
 struct Kernels {
     const char* name;
     void (*drift)(const BodyArrays& bodies, std::size_t begin, std::size_t end, const DriftSettings& settings, DriftResult& result);
@@ -182,12 +222,28 @@ struct Kernels {
     /// Relative poses of the block's pairs, and which candidate lists are stale.
     void (*find_poses)(const PairBlockView& block, PairScratch& scratch);
     /// Touching spheres, contact forces, history and loads of the block; poses must be there. The batch must have room for all candidates.
-    void (*pair_forces)(const LawRow& law, const PairBlockView& block, PairScratch& scratch, ContactBatch& batch, const StepClock& clock);
-    /// Forces of all contacts of a batch; `slots` are those of the pairs.
-    void (*contact_forces)(const LawRow& law, ContactBatch& batch, const PairSlot* slots, const StepClock& clock);
+    void (*pair_forces)(ContactKernel contact, const LawRow& law, const PairBlockView& block, PairScratch& scratch, ContactBatch& batch,
+                        const StepClock& clock);
+    /// The same for contacts that hold together beyond touching.
+    void (*sticky_pair_forces)(ContactKernel contact, const LawRow& law, const PairBlockView& block, PairScratch& scratch, ContactBatch& batch,
+                               const StepClock& clock);
+    /// By contact model and rolling model, each compiled by itself: without and with extras (see LawRow).
+    ContactKernel plain[contact_model_count][rolling_model_count], rich[contact_model_count][rolling_model_count];
 };
 
 const Kernels& scalar_kernels();
+
+/// The kernel that suits a law.
+inline ContactKernel contact_kernel(const Kernels& kernels, const Physics& physics, const LawRow& law) {
+    const auto model = static_cast<std::size_t>(physics.contact), rolling = static_cast<std::size_t>(physics.rolling);
+    return law.plain() ? kernels.plain[model][rolling] : kernels.rich[model][rolling];
+}
+
+/// Rows of history a contact.
+inline std::size_t spring_rows(const Physics& physics) {
+    return physics.rolling == RollingModel::elastic_plastic ? 2 : 1;
+}
+
 /// Null where the processor or the build lacks the instructions.
 const Kernels* avx2_kernels();
 const Kernels* avx512_kernels();

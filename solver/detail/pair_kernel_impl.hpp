@@ -65,16 +65,17 @@ inline void note_changes(const PairBlockView& block, std::size_t first, unsigned
         const unsigned bit = 1u << lane;
         if ((touched & bit) && !(touching & bit)) {
             block.candidates[first + lane].a = block.candidates[first + lane].sphere_a();
-            block.springs[first + lane] = {{0.0, 0.0, 0.0, 0.0}};
+            for (std::size_t row = 0; row < block.spring_rows; ++row) block.springs[(first + lane) * block.spring_rows + row] = {{0.0, 0.0, 0.0, 0.0}};
         }
         if (!(touched & bit) && (touching & bit) && keep_history)
             block.candidates[first + lane].a = static_cast<std::uint16_t>(block.candidates[first + lane].a | Candidate::touching_bit);
     }
 }
 
-/// Puts the touching spheres of pair k into the batch.
-template <class S>
-inline void collect_contacts(const PairBlockView& block, const PairScratch& s, std::size_t k, ContactBatch& b, std::uint32_t slot, bool keep_history) {
+/// Puts the touching spheres of pair k into the batch. Sticky: those that touched before count as touching until they are `hold` apart.
+template <class S, bool sticky>
+inline void collect_contacts(const PairBlockView& block, const PairScratch& s, std::size_t k, ContactBatch& b, std::uint32_t slot, bool keep_history,
+                             double hold) {
     using V = typename S::Real;
     const PairRecord& record = block.records[k];
     const Ball *balls_i = block.balls[record.template_i], *balls_j = block.balls[record.template_j];
@@ -100,7 +101,12 @@ inline void collect_contacts(const PairBlockView& block, const PairScratch& s, s
         S::load_short_rows(rows_j, ball_j);
         const Triple<V> centre{ball_i[0], ball_i[1], ball_i[2]};
         const Triple<V> d = rotate(r, Triple<V>{ball_j[0], ball_j[1], ball_j[2]}) + p - centre;
-        const V reach = ball_i[3] + ball_j[3];
+        V reach = ball_i[3] + ball_j[3];
+        if constexpr (sticky) {
+            double gap[S::width];
+            for (std::size_t lane = 0; lane < S::width; ++lane) gap[lane] = (touched >> lane) & 1u ? hold : 0.0;
+            reach = reach + S::load(gap);
+        }
         const std::size_t lanes = end - c < S::width ? end - c : S::width;
         const unsigned touching = S::bits(S::greater(reach * reach, dot(d, d))) & ((1u << lanes) - 1u);
         if (touched != touching) note_changes(block, c, touched, touching, lanes, keep_history);
@@ -120,7 +126,7 @@ inline void collect_contacts(const PairBlockView& block, const PairScratch& s, s
 
 /// Motion of the touching pairs in the frames of their first bodies.
 template <class L>
-inline void find_slots(const PairBlockView& block, PairScratch& s) {
+inline void find_slots(const PairBlockView& block, PairScratch& s, bool whole_inertia) {
     using V = typename L::Real;
     for (std::size_t k = 0; k < s.active_count; k += L::width) {
         const double *line_i[L::width], *line_j[L::width];
@@ -135,7 +141,7 @@ inline void find_slots(const PairBlockView& block, PairScratch& s) {
             line_j[lane] = block.kinematics[block.records[pair].j].motion;
             targets[lane] = s.slots[k + lane].row;
             for (int c = 0; c < 3; ++c) place[c][lane] = s.poses[pair].row[c];
-            contacts[lane] = static_cast<double>(s.first_contact[a + 1] - s.first_contact[a]);
+            contacts[lane] = whole_inertia ? rolling_share : static_cast<double>(s.first_contact[a + 1] - s.first_contact[a]);
         }
         const PlaceLanes<L> i = load_places<L>(first);
         V mi[8], mj[8];
@@ -201,38 +207,76 @@ inline void write_loads(const PairBlockView& block, PairScratch& s, const Contac
     }
 }
 
-template <class L, class S, class Law, class Rolling>
-void pair_forces(const LawRow& law, const PairBlockView& block, PairScratch& s, ContactBatch& b, const StepClock& clock) {
+/// Each contact's share of its pair's load: w_k = d_k / Σ d, so that K equal contacts act as one, and one that begins or ends changes nothing at once.
+inline void share_loads(const PairScratch& s, ContactBatch& b) {
+    for (std::size_t a = 0; a < s.active_count; ++a) {
+        double sum = 0.0;
+        for (std::uint32_t c = s.first_contact[a]; c < s.first_contact[a + 1]; ++c) {
+            const double overlap = b.ra[c] + b.rb[c] - __builtin_sqrt(b.dx[c] * b.dx[c] + b.dy[c] * b.dy[c] + b.dz[c] * b.dz[c]);
+            b.share[c] = overlap > 0.0 ? overlap : 0.0;
+            sum += b.share[c];
+        }
+        const double contacts = static_cast<double>(s.first_contact[a + 1] - s.first_contact[a]);
+        for (std::uint32_t c = s.first_contact[a]; c < s.first_contact[a + 1]; ++c) b.share[c] = sum > 0.0 ? b.share[c] / sum : 1.0 / contacts;
+    }
+}
+
+template <class L, class S, bool sticky>
+void pair_forces(ContactKernel contact, const LawRow& law, const PairBlockView& block, PairScratch& s, ContactBatch& b, const StepClock& clock) {
     const bool keep_history = clock.spring_step > 0.0;
     b.size = 0;
     b.springs = block.springs;
     s.active_count = 0;
     s.first_contact[0] = 0;
     for (std::size_t i = block.body_begin; i < block.body_end; ++i) block.own_touching[i] = 0;
+    if (law.booked)
+        for (double& column : block.book->row) column = 0.0;
     for (std::size_t k = 0; k < block.count; ++k) {
         block.touching[k] = 0;
         if (block.records[k].count == 0) continue;
         const std::size_t before = b.size;
-        collect_contacts<S>(block, s, k, b, s.active_count, keep_history);
+        collect_contacts<S, sticky>(block, s, k, b, s.active_count, keep_history, law.reach);
         if (b.size == before) continue;
         block.touching[k] = 1;
         s.active[s.active_count] = static_cast<std::uint32_t>(k);
         s.first_contact[++s.active_count] = static_cast<std::uint32_t>(b.size);
     }
     if (b.size == 0) return;
-    find_slots<L>(block, s);
-    contact_forces<L, Law, Rolling>(law, b, s.slots, clock);
+    find_slots<L>(block, s, block.spring_rows > 1);
+    if (law.shared) share_loads(s, b);
+    contact(law, b, s.slots, clock);
+    if (law.booked)
+        for (std::size_t c = 0; c < b.size; ++c)
+            for (int k = 0; k < 8; ++k) block.book->row[k] += b.book[c].row[k];
     write_loads<L>(block, s, b);
 }
 
+template <class L, bool rich>
+struct ContactKernels {
+    template <class Law>
+    static constexpr ContactKernel of(std::size_t rolling) {
+        return rolling == 0   ? &contact_forces<L, Law, RollingConstantTorque, rich>
+               : rolling == 1 ? &contact_forces<L, Law, RollingViscous, rich>
+                              : &contact_forces<L, Law, RollingElasticPlastic, rich>;
+    }
+};
+
 template <class L, class S>
 constexpr Kernels make_kernels(const char* name) {
-    return {name,
-            &drift<L>,
-            &gather<L>,
-            &find_poses<L>,
-            &pair_forces<L, S, HertzMindlinEdem, RollingConstantTorque>,
-            &contact_forces<L, HertzMindlinEdem, RollingConstantTorque>};
+    Kernels k{name, &drift<L>, &gather<L>, &find_poses<L>, &pair_forces<L, S, false>, &pair_forces<L, S, true>, {}, {}};
+    for (std::size_t rolling = 0; rolling < rolling_model_count; ++rolling) {
+        using Plain = ContactKernels<L, false>;
+        using Rich = ContactKernels<L, true>;
+        k.plain[0][rolling] = Plain::template of<HertzMindlinEdem>(rolling);
+        k.plain[1][rolling] = Plain::template of<HertzMindlinImpulseExact>(rolling);
+        k.plain[2][rolling] = Plain::template of<LinearSpringDashpot>(rolling);
+        k.plain[3][rolling] = Plain::template of<Viscoelastic>(rolling);
+        k.rich[0][rolling] = Rich::template of<HertzMindlinEdem>(rolling);
+        k.rich[1][rolling] = Rich::template of<HertzMindlinImpulseExact>(rolling);
+        k.rich[2][rolling] = Rich::template of<LinearSpringDashpot>(rolling);
+        k.rich[3][rolling] = Rich::template of<Viscoelastic>(rolling);
+    }
+    return k;
 }
 
 }  // namespace

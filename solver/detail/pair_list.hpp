@@ -21,7 +21,7 @@ struct PairBlock {
     std::uint32_t pair_begin = 0, pair_end = 0;
     static constexpr std::size_t candidate_padding = 4;
     std::vector<Candidate> candidates;
-    std::vector<Spring> springs;
+    std::vector<Spring> springs;  ///< PairList::spring_rows a candidate
 };
 
 struct PairList {
@@ -38,6 +38,9 @@ struct PairList {
     std::size_t body_count = 0;                           ///< at the last rebuild
     double skin = 0.0;                                    ///< [m], of the body list
     double pair_skin = 0.0;                               ///< [m], usual one of candidate lists
+    double hold = 0.0;                                    ///< [m], gap up to which spheres that have touched may hold together
+    std::size_t spring_rows = 1;                          ///< of history a contact
+    std::vector<LoadRow> books;                           ///< per block, where the law books; see BookColumn
     std::uint64_t rebuilds = 0;
     double spread = 0.0;          ///< mean distance in memory between the bodies of a pair
     double ordered_spread = 0.0;  ///< the same just after bodies were put in order
@@ -63,8 +66,8 @@ struct RelativePose {
 
 RelativePose relative_pose(const Kinematic& i, const Kinematic& j);
 
-/// Finds the candidates of record k anew for this relative pose; history is carried over by (sphere a, sphere b).
-void refresh_candidates(PairBlock& block, PairRecord& record, const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& pose, double usual_skin,
+/// Finds the candidates of a record anew for this relative pose; history is carried over by (sphere a, sphere b).
+void refresh_candidates(const PairList& list, PairBlock& block, PairRecord& record, const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& pose,
                         std::uint32_t step);
 
 /// True when the list has lasted so long that a smaller skin would do.

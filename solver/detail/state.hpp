@@ -24,6 +24,7 @@ struct Simulation::State {
     std::vector<const detail::Ball*> balls;          ///< per template
     std::vector<detail::MotionConstants> constants;  ///< per template
     detail::LawRow pellet_law;
+    detail::ContactKernel pellet_contact = nullptr;
     const detail::Kernels* kernels = nullptr;
     detail::WallSkins wall_skins;
     Box domain;
@@ -62,10 +63,17 @@ struct Simulation::State {
 
 namespace detail {
 
+inline constexpr std::size_t body_grain = 256;  ///< fixed, so sums do not depend on the number of threads
+
 inline constexpr std::array<const char*, 6> stage_names{"drift", "walls move", "neighbours", "pairs", "wall contacts", "gather and kick"};
 
 /// Constants of the contact law between two materials; Throws Error(bad_input) for values out of range, naming `what`.
-LawRow make_law_row(const ElasticMaterial& a, const ElasticMaterial& b, const PairParameters& contact, const std::string& what);
+/// `largest_radius` [m] is that of the pellets' spheres.
+LawRow make_law_row(const ElasticMaterial& a, const ElasticMaterial& b, const PairParameters& contact, const Physics& physics, double largest_radius,
+                    const std::string& what);
+
+/// Throws Error(bad_input) for options out of range or that exclude each other.
+void check_physics(const Physics& physics);
 
 /// Hash of everything in a definition that decides the future.
 std::uint64_t fingerprint(const SimulationDefinition& definition);

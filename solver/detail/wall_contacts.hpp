@@ -19,6 +19,8 @@ struct WallHistory {
     std::uint32_t sphere = 0, patch = 0;
     Vec3 normal = Vec3::UnitZ();  ///< from the wall to the body, of the last step
     Vec3 spring = Vec3::Zero();   ///< [m]
+    Vec3 torque = Vec3::Zero();   ///< [N m], of the rolling spring
+    double broken = 0.0;          ///< 1 once a cohesive contact has come apart
 };
 
 struct WallCandidate {
@@ -44,12 +46,14 @@ struct WallWatch {
 };
 
 struct Wall {
-    Wall(const WallDefinition& definition, const LawRow& row);
+    Wall(const WallDefinition& definition, const LawRow& row, ContactKernel kernel, std::size_t spring_rows);
 
     std::string name;
     WallMesh mesh;
     WallQuery query;
     LawRow law;
+    ContactKernel contact;
+    std::size_t spring_rows;
     WallMotion motion;
     std::uint64_t motion_start = 0;  ///< step at which `motion` began
     Pose start_pose, pose;
@@ -57,7 +61,7 @@ struct Wall {
     std::vector<WallWatch> watches;  ///< one a body
     std::vector<LoadRow> loads;      ///< on each body, world, about its centre of mass; valid where touching
     std::vector<std::uint8_t> touching;
-    WallLoad load;  ///< sum over bodies
+    std::vector<LoadRow> books;  ///< per block of bodies, where the law books; see BookColumn
 };
 
 /// Places the wall where its motion has it after `step` steps of dt.
@@ -69,9 +73,9 @@ struct WallSkins {
     double candidates = 0.0;  ///< [m]
 };
 
-/// Forces of the wall on bodies [begin, end).
-void wall_contact_forces(Wall& wall, std::size_t begin, std::size_t end, const std::vector<Kinematic>& kinematics, const Bodies& bodies,
-                         const std::vector<BodyTemplate>& templates, const WallSkins& skins, const Kernels& kernels, const StepClock& clock);
+/// Forces of the wall on bodies [begin, end), the bodies of block `block`.
+void wall_contact_forces(Wall& wall, std::size_t block, std::size_t begin, std::size_t end, const std::vector<Kinematic>& kinematics, const Bodies& bodies,
+                         const std::vector<BodyTemplate>& templates, const WallSkins& skins, const StepClock& clock);
 
 /// One contact of a body with a wall, frame of the wall.
 struct WallOverlap {
