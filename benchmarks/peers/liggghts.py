@@ -160,8 +160,8 @@ def write_inputs(folder, rig, pellets, count, steps, pack, settle, rpm=35.0, spi
                 "%sregion ins particles_in_region %d ntry_mc 100000\n" % ("" if single else "orientation random ", pellets))
         f.write(after + "run 1\nfix visc all viscous %g\nrun %d\nunfix visc\nunfix grav\nfix grav all gravity 9.81 vector 0 0 -1\n" % (drag, pack))
         f.write("timestep 1e-5\nneighbor %g bin\nrun %d\n%srun %d\n" % (SKIN[rig], settle, turn, spin))
-        f.write("write_restart settled.bin\ndump d all custom 1000000000 settled.dump id mol x y z vx vy vz omegax omegay omegaz\n"
-                "dump_modify d first yes sort id format \"%d %d %.15g %.15g %.15g %.9g %.9g %.9g %.9g %.9g %.9g\"\nrun 0\n")
+        f.write("write_restart settled.bin\ndump d all custom 1000000000 settled.dump id %s x y z vx vy vz omegax omegay omegaz\n"
+                "dump_modify d first yes sort id format \"%d %d %.15g %.15g %.15g %.9g %.9g %.9g %.9g %.9g %.9g\"\nrun 0\n".replace("%s", "type" if single else "mol", 1))
     for processes, grid in grids.items():
         with open(os.path.join(folder, "in.time%d" % processes), "w", encoding="ascii") as f:
             f.write(HEAD % dict(common, processors=grid) + "read_restart settled.bin\nneighbor %g bin\n" % SKIN[rig])
