@@ -15,7 +15,8 @@ struct Grid {
     Vec3 origin = Vec3::Zero();
     double cell = 1.0;
     std::array<std::int64_t, 3> count{1, 1, 1};
-    std::vector<std::uint32_t> first, member;
+    const std::vector<std::uint32_t>& first;
+    const std::vector<std::uint32_t>& member;
 
     std::array<std::int64_t, 3> cell_of(const Vec3& p) const {
         std::array<std::int64_t, 3> c{};
@@ -28,8 +29,8 @@ struct Grid {
     std::size_t index(const std::array<std::int64_t, 3>& c) const { return static_cast<std::size_t>((c[2] * count[1] + c[1]) * count[0] + c[0]); }
 };
 
-Grid make_grid(const Bodies& bodies, double smallest_cell) {
-    Grid grid;
+Grid make_grid(const Bodies& bodies, double smallest_cell, NeighbourScratch& s) {
+    Grid grid{Vec3::Zero(), 1.0, {1, 1, 1}, s.first, s.member};
     Box box;
     const std::size_t n = bodies.size();
     for (std::size_t i = 0; i < n; ++i) box.extend(bodies.position(i));
@@ -43,34 +44,33 @@ Grid make_grid(const Bodies& bodies, double smallest_cell) {
         grid.cell *= 1.26;
     }
     for (std::size_t k = 0; k < 3; ++k) grid.count[k] = static_cast<std::int64_t>(std::floor(box.sizes()[static_cast<int>(k)] / grid.cell)) + 1;
-    std::vector<std::uint32_t> cell_of_body(n);
-    grid.first.assign(static_cast<std::size_t>(grid.count[0] * grid.count[1] * grid.count[2]) + 1, 0);
-    for (std::size_t i = 0; i < n; ++i) {
-        cell_of_body[i] = static_cast<std::uint32_t>(grid.index(grid.cell_of(bodies.position(i))));
-        ++grid.first[cell_of_body[i] + 1];
-    }
-    for (std::size_t c = 1; c < grid.first.size(); ++c) grid.first[c] += grid.first[c - 1];
-    std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
-    grid.member.resize(n);
-    for (std::size_t i = 0; i < n; ++i) grid.member[next[cell_of_body[i]]++] = static_cast<std::uint32_t>(i);
+    s.cell_of_body.resize(n);
+    s.first.assign(static_cast<std::size_t>(grid.count[0] * grid.count[1] * grid.count[2]) + 1, 0);
+    parallel_for(n, 2048, [&](std::size_t i) { s.cell_of_body[i] = static_cast<std::uint32_t>(grid.index(grid.cell_of(bodies.position(i)))); });
+    for (std::size_t i = 0; i < n; ++i) ++s.first[s.cell_of_body[i] + 1];
+    for (std::size_t c = 1; c < s.first.size(); ++c) s.first[c] += s.first[c - 1];
+    s.next.assign(s.first.begin(), s.first.end() - 1);
+    s.member.resize(n);
+    for (std::size_t i = 0; i < n; ++i) s.member[s.next[s.cell_of_body[i]]++] = static_cast<std::uint32_t>(i);
     return grid;
 }
 
 }  // namespace
 
-NeighbourRows find_neighbours(const Bodies& bodies, const std::vector<BodyTemplate>& templates, double skin) {
-    NeighbourRows rows;
+void find_neighbours(const Bodies& bodies, const std::vector<BodyTemplate>& templates, double skin, NeighbourRows& rows, NeighbourScratch& scratch) {
     const std::size_t n = bodies.size();
     rows.first.assign(n + 1, 0);
-    if (n < 2) return rows;
+    rows.partner.clear();
+    if (n < 2) return;
     double largest = 0.0;
     for (const BodyTemplate& t : templates) largest = std::max(largest, t.bounding_radius);
-    const Grid grid = make_grid(bodies, 2.0 * largest + skin);
+    const Grid grid = make_grid(bodies, 2.0 * largest + skin, scratch);
 
     constexpr std::size_t grain = 512;
-    std::vector<std::vector<std::uint32_t>> found((n + grain - 1) / grain);
+    scratch.found.resize((n + grain - 1) / grain);
     parallel_blocks(n, grain, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::uint32_t>& list = found[begin / grain];
+        std::vector<std::uint32_t>& list = scratch.found[begin / grain];
+        list.clear();
         for (std::size_t i = begin; i < end; ++i) {
             const std::size_t start = list.size();
             const Vec3 p = bodies.position(i);
@@ -97,8 +97,7 @@ NeighbourRows find_neighbours(const Bodies& bodies, const std::vector<BodyTempla
     });
     for (std::size_t i = 0; i < n; ++i) rows.first[i + 1] += rows.first[i];
     rows.partner.reserve(rows.first[n]);
-    for (const auto& list : found) rows.partner.insert(rows.partner.end(), list.begin(), list.end());
-    return rows;
+    for (const auto& list : scratch.found) rows.partner.insert(rows.partner.end(), list.begin(), list.end());
 }
 
 }  // namespace pelletlab::solver::detail

@@ -298,7 +298,8 @@ void Simulation::load_checkpoint(const std::filesystem::path& file) {
         s.wall_loads[k] = saved.walls[k].load;
     }
     detail::PairList fresh;
-    fresh.skin = s.pairs.skin, fresh.pair_skin = s.pairs.pair_skin, fresh.hold = s.pairs.hold, fresh.spring_rows = s.pairs.spring_rows;
+    fresh.skin = s.pairs.skin, fresh.smallest_skin = s.pairs.smallest_skin, fresh.largest_skin = s.pairs.largest_skin, fresh.rebuilt_at = s.steps,
+    fresh.pair_skin = s.pairs.pair_skin, fresh.hold = s.pairs.hold, fresh.spring_rows = s.pairs.spring_rows;
     s.pairs = std::move(fresh);
     s.kinematics.resize(detail::padded_count(s.bodies.size()));
     for (detail::Wall& wall : s.walls) wall.watches.resize(s.bodies.size()), wall.loads.resize(s.bodies.size()), wall.touching.resize(s.bodies.size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -79,19 +80,59 @@ void search(const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& 
 }
 
 /// Consecutive bodies, until their pairs are enough for one piece of work.
-void cut_into_blocks(PairList& list, std::size_t body_count) {
-    list.blocks.clear();
+void cut_into_blocks(Pairs& list, std::size_t body_count) {
+    std::size_t used = 0;
     list.block_of_body.resize(body_count);
-    for (std::uint32_t i = 0; i < body_count;) {
-        PairBlock block;
+    for (std::uint32_t i = 0; i < body_count; ++used) {
+        if (used == list.blocks.size()) list.blocks.emplace_back();
+        PairBlock& block = list.blocks[used];
         block.body_begin = i;
         block.pair_begin = list.rows.first[i];
         while (i < body_count && list.rows.first[i] - block.pair_begin < pairs_per_block && i - block.body_begin < pairs_per_block)
-            list.block_of_body[i++] = static_cast<std::uint32_t>(list.blocks.size());
+            list.block_of_body[i++] = static_cast<std::uint32_t>(used);
         block.body_end = i;
         block.pair_end = list.rows.first[i];
-        list.blocks.push_back(std::move(block));
+        block.candidates.clear();
+        block.springs.clear();
     }
+    list.blocks.resize(used);
+}
+
+/// The record that a pair had before, or none.
+const PairRecord* record_before(const Pairs& old, std::uint32_t id_i, std::uint32_t id_j) {
+    if (id_i >= old.place_of_id.size() || id_j >= old.place_of_id.size()) return nullptr;
+    const std::uint32_t i = old.place_of_id[id_i], j = old.place_of_id[id_j];
+    for (std::uint32_t k = old.rows.first[i]; k < old.rows.first[i + 1]; ++k)
+        if (old.rows.partner[k] == j) return &old.records[k];
+    return nullptr;
+}
+
+/// Fills the records of a block; what pairs had before is carried over.
+void fill_block(PairList& list, PairBlock& block, const Bodies& bodies) {
+    const Pairs& old = list.previous;
+    thread_local std::vector<const PairRecord*> before;  // scratch
+    before.clear();
+    std::size_t candidates = 0;
+    for (std::uint32_t i = block.body_begin; i < block.body_end; ++i)
+        for (std::uint32_t k = list.rows.first[i]; k < list.rows.first[i + 1]; ++k) {
+            before.push_back(record_before(old, bodies.id(i), bodies.id(list.rows.partner[k])));
+            if (before.back()) candidates += padded(before.back()->count);
+        }
+    if (candidates > block.candidates.capacity()) {  // some more than is needed now
+        block.candidates.reserve(candidates + candidates / 4);
+        block.springs.reserve((candidates + candidates / 4) * list.spring_rows);
+    }
+    for (std::uint32_t i = block.body_begin; i < block.body_end; ++i)
+        for (std::uint32_t k = list.rows.first[i]; k < list.rows.first[i + 1]; ++k) {
+            PairRecord& record = list.records[k];
+            record = PairRecord{{0, 0, 0, 1, 0, 0, 0, -1}, 0, 0, 0, 0, 0, 0, 0, 0.0f, 0};
+            if (const PairRecord* found = before[k - block.pair_begin]; found)
+                carry_over(old.blocks[old.block_of_body[found->i]], *found, list.spring_rows, block, record);
+            record.i = i;
+            record.j = list.rows.partner[k];
+            record.template_i = static_cast<std::uint16_t>(bodies.template_of(record.i));
+            record.template_j = static_cast<std::uint16_t>(bodies.template_of(record.j));
+        }
 }
 
 }  // namespace
@@ -154,47 +195,24 @@ void refresh_candidates(const PairList& list, PairBlock& block, PairRecord& reco
 }
 
 void rebuild_pairs(PairList& list, Bodies& bodies, const std::vector<BodyTemplate>& templates) {
-    PairList old;
-    old.rows = std::move(list.rows);
-    old.records = std::move(list.records);
-    old.blocks = std::move(list.blocks);
-    old.block_of_body = std::move(list.block_of_body);
-    old.place_of_id = std::move(list.place_of_id);
-    list.rows = find_neighbours(bodies, templates, list.skin);
+    std::swap(static_cast<Pairs&>(list), list.previous);
+    find_neighbours(bodies, templates, list.skin, list.rows, list.scratch);
     const std::size_t n = bodies.size(), pair_count = list.rows.partner.size();
-    list.records.assign(pair_count, PairRecord{{0, 0, 0, 1, 0, 0, 0, -1}, 0, 0, 0, 0, 0, 0, 0, 0.0f, 0});
+    list.records.resize(pair_count);
     list.loads_j.resize(pair_count);
     list.touching.assign(pair_count, 0);
     list.own_loads.resize(n);
     list.own_touching.assign(n, 0);
     cut_into_blocks(list, n);
     list.books.assign(list.blocks.size(), LoadRow{});
-    parallel_for(list.blocks.size(), 1, [&](std::size_t index) {
-        PairBlock& block = list.blocks[index];
-        for (std::uint32_t i = block.body_begin; i < block.body_end; ++i)
-            for (std::uint32_t k = list.rows.first[i]; k < list.rows.first[i + 1]; ++k) {
-                PairRecord& record = list.records[k];
-                record.i = i;
-                record.j = list.rows.partner[k];
-                const std::uint32_t id_i = bodies.id(i), id_j = bodies.id(record.j);
-                if (id_i < old.place_of_id.size() && id_j < old.place_of_id.size()) {
-                    const std::uint32_t old_i = old.place_of_id[id_i], old_j = old.place_of_id[id_j];
-                    for (std::uint32_t before = old.rows.first[old_i]; before < old.rows.first[old_i + 1]; ++before)
-                        if (old.rows.partner[before] == old_j)
-                            carry_over(old.blocks[old.block_of_body[old_i]], old.records[before], list.spring_rows, block, record);
-                    record.i = i;
-                    record.j = list.rows.partner[k];
-                }
-                record.template_i = static_cast<std::uint16_t>(bodies.template_of(record.i));
-                record.template_j = static_cast<std::uint16_t>(bodies.template_of(record.j));
-            }
-    });
+    parallel_for(list.blocks.size(), 1, [&](std::size_t index) { fill_block(list, list.blocks[index], bodies); });
 
     list.incoming_first.assign(n + 1, 0);
     for (const std::uint32_t j : list.rows.partner) ++list.incoming_first[j + 1];
     for (std::size_t j = 0; j < n; ++j) list.incoming_first[j + 1] += list.incoming_first[j];
     list.incoming.resize(pair_count);
-    std::vector<std::uint32_t> next(list.incoming_first.begin(), list.incoming_first.end() - 1);
+    std::vector<std::uint32_t>& next = list.scratch.next;
+    next.assign(list.incoming_first.begin(), list.incoming_first.end() - 1);
     list.place_of_id.resize(n);
     for (std::size_t id = 0; id < n; ++id) {
         const std::uint32_t i = list.place_of_id[id] = bodies.place_of(id);

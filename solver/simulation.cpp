@@ -125,6 +125,7 @@ Simulation::State::State(SimulationDefinition given) : definition(std::move(give
     pairs.spring_rows = detail::spring_rows(d.physics);
     pairs.hold = pellet_law.reach;
     pairs.skin = d.skins.bodies > 0.0 ? d.skins.bodies : 0.15 * largest;
+    if (!(d.skins.bodies > 0.0)) pairs.smallest_skin = 0.05 * largest, pairs.largest_skin = 0.4 * largest;
     pairs.pair_skin = d.skins.spheres > 0.0 ? d.skins.spheres : 0.02 * largest;
     wall_skins.faces = d.skins.wall_faces > 0.0 ? d.skins.wall_faces : 0.25 * largest;
     wall_skins.candidates = d.skins.wall_candidates > 0.0 ? d.skins.wall_candidates : 0.02 * largest;

@@ -109,6 +109,7 @@ void Simulation::State::move_walls() {
 
 void Simulation::State::find_neighbours_if_needed(double furthest2) {
     if (!(furthest2 > 0.25 * pairs.skin * pairs.skin)) return;
+    pairs.adapt_skin(steps);
     const bool scattered = pairs.spread > 1.25 * pairs.ordered_spread;
     if (scattered) order_bodies();
     detail::rebuild_pairs(pairs, bodies, templates);

@@ -14,7 +14,13 @@ struct NeighbourRows {
     std::vector<std::uint32_t> partner;
 };
 
+/// Scratch of the search, kept so that a search takes no new memory.
+struct NeighbourScratch {
+    std::vector<std::uint32_t> cell_of_body, first, next, member;
+    std::vector<std::vector<std::uint32_t>> found;  ///< per piece of work
+};
+
 /// Pairs with |x_i − x_j| < R_i + R_j + skin. Bounding spheres are centred in the centres of mass, so rotation plays no role here.
-NeighbourRows find_neighbours(const Bodies& bodies, const std::vector<BodyTemplate>& templates, double skin);
+void find_neighbours(const Bodies& bodies, const std::vector<BodyTemplate>& templates, double skin, NeighbourRows& rows, NeighbourScratch& scratch);
 
 }  // namespace pelletlab::solver::detail

@@ -6,6 +6,7 @@
 // how long its lists last: short lists where nothing moves, long-lived ones where much does.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -24,26 +25,41 @@ struct PairBlock {
     std::vector<Spring> springs;  ///< PairList::spring_rows a candidate
 };
 
-struct PairList {
+/// The pairs themselves: what a rebuild carries over.
+struct Pairs {
     NeighbourRows rows;
     std::vector<PairRecord> records;  ///< by the place of i, then the id of j; i is the one with the smaller id
     std::vector<PairBlock> blocks;    ///< in the order of bodies and pairs
     std::vector<std::uint32_t> block_of_body;
+    std::vector<std::uint32_t> place_of_id;  ///< where bodies lay when the list was made
+};
+
+struct PairList : Pairs {
+    Pairs previous;  ///< of the last rebuild; kept because its memory serves the next one
+    NeighbourScratch scratch;
     std::vector<LoadRow> loads_j;  ///< per pair: what the second body feels, world; valid where touching
     std::vector<std::uint8_t> touching;
     std::vector<LoadRow> own_loads;  ///< per body: what it feels from the pairs in which it is the first; valid where own_touching
     std::vector<std::uint8_t> own_touching;
     std::vector<std::uint32_t> incoming_first, incoming;  ///< for body j: the records in which it is the second one, by the id of i
-    std::vector<std::uint32_t> place_of_id;               ///< where bodies lay at the last rebuild
     std::size_t body_count = 0;                           ///< at the last rebuild
     double skin = 0.0;                                    ///< [m], of the body list
     double pair_skin = 0.0;                               ///< [m], usual one of candidate lists
     double hold = 0.0;                                    ///< [m], gap up to which spheres that have touched may hold together
     std::size_t spring_rows = 1;                          ///< of history a contact
     std::vector<LoadRow> books;                           ///< per block, where the law books; see BookColumn
-    std::uint64_t rebuilds = 0;
-    double spread = 0.0;          ///< mean distance in memory between the bodies of a pair
-    double ordered_spread = 0.0;  ///< the same just after bodies were put in order
+    std::uint64_t rebuilds = 0, rebuilt_at = 0;           ///< rebuilt_at: step
+    double smallest_skin = 0.0, largest_skin = 0.0;       ///< [m], between which adapt_skin() may choose; both 0: it stays as it is
+    double spread = 0.0;                                  ///< mean distance in memory between the bodies of a pair
+    double ordered_spread = 0.0;                          ///< the same just after bodies were put in order
+
+    /// A wider skin for a list that has lasted only a few steps, a narrower one for a list that has lasted long. Results do not depend on it.
+    void adapt_skin(std::uint64_t step) {
+        const std::uint64_t lasted = step - rebuilt_at;
+        rebuilt_at = step;
+        if (lasted < 30 && skin < largest_skin) skin = std::min(1.2 * skin, largest_skin);
+        if (lasted > 150 && skin > smallest_skin) skin = std::max(skin / 1.2, smallest_skin);
+    }
 };
 
 /// Makes the list anew and marks the bodies' reference positions; candidates and history of pairs that stay are carried over.

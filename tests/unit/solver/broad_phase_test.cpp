@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.hpp"
+#include "solver/detail/body_order.hpp"
 
 namespace pelletlab::solver::detail {
 namespace {
@@ -26,9 +27,16 @@ std::vector<BodyTemplate> two_sizes() {
     return t;
 }
 
+NeighbourRows neighbours(const Bodies& b, const std::vector<BodyTemplate>& templates, double skin) {
+    NeighbourRows rows;
+    NeighbourScratch scratch;
+    find_neighbours(b, templates, skin, rows, scratch);
+    return rows;
+}
+
 void expect_same_as_brute_force(const Bodies& b, double skin) {
     const auto templates = two_sizes();
-    const NeighbourRows rows = find_neighbours(b, templates, skin);
+    const NeighbourRows rows = neighbours(b, templates, skin);
     std::vector<std::uint32_t> first{0}, partner;
     for (std::size_t i = 0; i < b.size(); ++i) {
         for (std::size_t j = i + 1; j < b.size(); ++j) {
@@ -52,9 +60,38 @@ TEST(BroadPhase, EqualsBruteForceWhenAFewBodiesAreVeryFarAway) {
     expect_same_as_brute_force(b, 0.02);
 }
 
+TEST(BroadPhase, ReorderedBodiesHaveTheSameNeighboursByTheirIds) {
+    const auto templates = two_sizes();
+    Bodies b = scattered(500, 1.0, 3);
+    const NeighbourRows straight = neighbours(b, templates, 0.01);
+    const std::vector<std::uint32_t> order = hilbert_order(b, 0.1);
+    std::vector<std::uint8_t> seen(b.size(), 0);
+    for (const std::uint32_t i : order) ++seen[i];
+    EXPECT_EQ(seen, std::vector<std::uint8_t>(b.size(), 1));
+    const std::vector<Vec3> before = [&] {
+        std::vector<Vec3> p;
+        for (std::size_t i = 0; i < b.size(); ++i) p.push_back(b.position(i));
+        return p;
+    }();
+    b.reorder(order);
+    double steps = 0.0, steps_before = 0.0;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        EXPECT_EQ(b.position(b.place_of(i)), before[i]);
+        if (i > 0) steps += (b.position(i) - b.position(i - 1)).norm(), steps_before += (before[i] - before[i - 1]).norm();
+    }
+    EXPECT_LT(steps, 0.25 * steps_before);  // neighbours in memory are neighbours in space
+    const NeighbourRows moved = neighbours(b, templates, 0.01);
+    for (std::uint32_t id = 0; id < b.size(); ++id) {
+        const std::uint32_t i = b.place_of(id);
+        std::vector<std::uint32_t> ids;
+        for (std::uint32_t k = moved.first[i]; k < moved.first[i + 1]; ++k) ids.push_back(b.id(moved.partner[k]));
+        EXPECT_EQ(ids, std::vector<std::uint32_t>(straight.partner.begin() + straight.first[id], straight.partner.begin() + straight.first[id + 1]));
+    }
+}
+
 TEST(BroadPhase, NoBodiesAndOneBodyHaveNoNeighbours) {
-    EXPECT_TRUE(find_neighbours(scattered(0, 1.0, 1), two_sizes(), 0.1).partner.empty());
-    EXPECT_TRUE(find_neighbours(scattered(1, 1.0, 1), two_sizes(), 0.1).partner.empty());
+    EXPECT_TRUE(neighbours(scattered(0, 1.0, 1), two_sizes(), 0.1).partner.empty());
+    EXPECT_TRUE(neighbours(scattered(1, 1.0, 1), two_sizes(), 0.1).partner.empty());
 }
 
 }  // namespace
