@@ -8,14 +8,14 @@ namespace {
 
 struct Real8 {
     __m512d v;
-    friend Real8 operator+(Real8 a, Real8 b) { return {_mm512_add_pd(a.v, b.v)}; }
-    friend Real8 operator-(Real8 a, Real8 b) { return {_mm512_sub_pd(a.v, b.v)}; }
-    friend Real8 operator*(Real8 a, Real8 b) { return {_mm512_mul_pd(a.v, b.v)}; }
-    friend Real8 operator/(Real8 a, Real8 b) { return {_mm512_div_pd(a.v, b.v)}; }
+    PELLETLAB_LANES friend Real8 operator+(Real8 a, Real8 b) { return {_mm512_add_pd(a.v, b.v)}; }
+    PELLETLAB_LANES friend Real8 operator-(Real8 a, Real8 b) { return {_mm512_sub_pd(a.v, b.v)}; }
+    PELLETLAB_LANES friend Real8 operator*(Real8 a, Real8 b) { return {_mm512_mul_pd(a.v, b.v)}; }
+    PELLETLAB_LANES friend Real8 operator/(Real8 a, Real8 b) { return {_mm512_div_pd(a.v, b.v)}; }
 };
 
 /// Eight rows become eight columns: pairs of lanes, then quarters, then halves.
-inline void transpose8(__m512d* r) {
+PELLETLAB_LANES inline void transpose8(__m512d* r) {
     __m512d t[8];
     for (int k = 0; k < 8; k += 2) {
         t[k] = _mm512_unpacklo_pd(r[k], r[k + 1]);
@@ -38,40 +38,40 @@ struct Avx512Lanes {
     using Real = Real8;
     using Mask = __mmask8;
     static constexpr std::size_t width = 8;
-    static Real load(const double* p) { return {_mm512_loadu_pd(p)}; }
-    static void store(double* p, Real a) { _mm512_storeu_pd(p, a.v); }
-    static Real all(double a) { return {_mm512_set1_pd(a)}; }
-    static Real square_root(Real a) { return {_mm512_sqrt_pd(a.v)}; }
-    static Real smaller(Real a, Real b) { return {_mm512_min_pd(a.v, b.v)}; }
-    static Real larger(Real a, Real b) { return {_mm512_max_pd(a.v, b.v)}; }
-    static Real choose(Mask m, Real a, Real b) { return {_mm512_mask_blend_pd(m, b.v, a.v)}; }
-    static Mask greater(Real a, Real b) { return _mm512_cmp_pd_mask(a.v, b.v, _CMP_GT_OQ); }
-    static unsigned bits(Mask m) { return m; }
-    static void load_rows(const double* const* p, Real* c) {
+    PELLETLAB_LANES static Real load(const double* p) { return {_mm512_loadu_pd(p)}; }
+    PELLETLAB_LANES static void store(double* p, Real a) { _mm512_storeu_pd(p, a.v); }
+    PELLETLAB_LANES static Real all(double a) { return {_mm512_set1_pd(a)}; }
+    PELLETLAB_LANES static Real square_root(Real a) { return {_mm512_sqrt_pd(a.v)}; }
+    PELLETLAB_LANES static Real smaller(Real a, Real b) { return {_mm512_min_pd(a.v, b.v)}; }
+    PELLETLAB_LANES static Real larger(Real a, Real b) { return {_mm512_max_pd(a.v, b.v)}; }
+    PELLETLAB_LANES static Real choose(Mask m, Real a, Real b) { return {_mm512_mask_blend_pd(m, b.v, a.v)}; }
+    PELLETLAB_LANES static Mask greater(Real a, Real b) { return _mm512_cmp_pd_mask(a.v, b.v, _CMP_GT_OQ); }
+    PELLETLAB_LANES static unsigned bits(Mask m) { return m; }
+    PELLETLAB_LANES static void load_rows(const double* const* p, Real* c) {
         __m512d r[8];
         for (int k = 0; k < 8; ++k) r[k] = _mm512_loadu_pd(p[k]);
         transpose8(r);
         for (int k = 0; k < 8; ++k) c[k].v = r[k];
     }
-    static void load_short_rows(const double* const* p, Real* c) {
+    PELLETLAB_LANES static void load_short_rows(const double* const* p, Real* c) {
         Real4 low[4], high[4];
         Avx2Lanes::load_short_rows(p, low);
         Avx2Lanes::load_short_rows(p + 4, high);
         for (int k = 0; k < 4; ++k) c[k].v = _mm512_insertf64x4(_mm512_castpd256_pd512(low[k].v), high[k].v, 1);
     }
-    static void store_short_rows(double* const* p, const Real* c) {
+    PELLETLAB_LANES static void store_short_rows(double* const* p, const Real* c) {
         Real4 low[4], high[4];
         for (int k = 0; k < 4; ++k) low[k].v = _mm512_castpd512_pd256(c[k].v), high[k].v = _mm512_extractf64x4_pd(c[k].v, 1);
         Avx2Lanes::store_short_rows(p, low);
         Avx2Lanes::store_short_rows(p + 4, high);
     }
-    static void load_float_rows(const float* const* p, Real* c) {
+    PELLETLAB_LANES static void load_float_rows(const float* const* p, Real* c) {
         __m512d r[8];
         for (int k = 0; k < 8; ++k) r[k] = _mm512_cvtps_pd(_mm256_loadu_ps(p[k]));
         transpose8(r);
         for (int k = 0; k < 8; ++k) c[k].v = r[k];
     }
-    static void store_rows(double* const* p, const Real* c) {
+    PELLETLAB_LANES static void store_rows(double* const* p, const Real* c) {
         __m512d r[8];
         for (int k = 0; k < 8; ++k) r[k] = c[k].v;
         transpose8(r);
@@ -82,10 +82,12 @@ struct Avx512Lanes {
 /// Four lanes again, with the chosen ones packed by one instruction.
 struct Avx512ShortLanes : Avx2Lanes {
     using Mask = __mmask8;
-    static Real choose(Mask m, Real a, Real b) { return {_mm256_mask_blend_pd(m, b.v, a.v)}; }
-    static Mask greater(Real a, Real b) { return _mm256_cmp_pd_mask(a.v, b.v, _CMP_GT_OQ); }
-    static unsigned bits(Mask m) { return m; }
-    static void store_chosen(double* p, unsigned bits, Real a) { _mm256_storeu_pd(p, _mm256_maskz_compress_pd(static_cast<__mmask8>(bits), a.v)); }
+    PELLETLAB_LANES static Real choose(Mask m, Real a, Real b) { return {_mm256_mask_blend_pd(m, b.v, a.v)}; }
+    PELLETLAB_LANES static Mask greater(Real a, Real b) { return _mm256_cmp_pd_mask(a.v, b.v, _CMP_GT_OQ); }
+    PELLETLAB_LANES static unsigned bits(Mask m) { return m; }
+    PELLETLAB_LANES static void store_chosen(double* p, unsigned bits, Real a) {
+        _mm256_storeu_pd(p, _mm256_maskz_compress_pd(static_cast<__mmask8>(bits), a.v));
+    }
 };
 
 }  // namespace

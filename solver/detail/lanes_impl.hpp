@@ -5,6 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
+/// For operations on registers: a call would pass them through memory, and where kernels grow, compilers begin to call.
+#define PELLETLAB_LANES [[gnu::always_inline]]
+
 namespace pelletlab::solver::detail {
 namespace {
 
@@ -13,34 +16,34 @@ struct ScalarLanes {
     using Real = double;
     using Mask = bool;
     static constexpr std::size_t width = 1;
-    static Real load(const double* p) { return *p; }
-    static void store(double* p, Real a) { *p = a; }
-    static Real all(double a) { return a; }
-    static Real square_root(Real a) { return __builtin_sqrt(a); }
-    static Real smaller(Real a, Real b) { return a < b ? a : b; }
-    static Real larger(Real a, Real b) { return a > b ? a : b; }
-    static Real choose(Mask m, Real a, Real b) { return m ? a : b; }
-    static Mask greater(Real a, Real b) { return a > b; }
-    static unsigned bits(Mask m) { return m ? 1u : 0u; }
+    PELLETLAB_LANES static Real load(const double* p) { return *p; }
+    PELLETLAB_LANES static void store(double* p, Real a) { *p = a; }
+    PELLETLAB_LANES static Real all(double a) { return a; }
+    PELLETLAB_LANES static Real square_root(Real a) { return __builtin_sqrt(a); }
+    PELLETLAB_LANES static Real smaller(Real a, Real b) { return a < b ? a : b; }
+    PELLETLAB_LANES static Real larger(Real a, Real b) { return a > b ? a : b; }
+    PELLETLAB_LANES static Real choose(Mask m, Real a, Real b) { return m ? a : b; }
+    PELLETLAB_LANES static Mask greater(Real a, Real b) { return a > b; }
+    PELLETLAB_LANES static unsigned bits(Mask m) { return m ? 1u : 0u; }
     /// Column k of the rows at p[0] … p[width − 1], eight columns each.
-    static void load_rows(const double* const* p, Real* column) {
+    PELLETLAB_LANES static void load_rows(const double* const* p, Real* column) {
         for (int k = 0; k < 8; ++k) column[k] = p[0][k];
     }
-    static void load_float_rows(const float* const* p, Real* column) {
+    PELLETLAB_LANES static void load_float_rows(const float* const* p, Real* column) {
         for (int k = 0; k < 8; ++k) column[k] = static_cast<double>(p[0][k]);
     }
-    static void store_rows(double* const* p, const Real* column) {
+    PELLETLAB_LANES static void store_rows(double* const* p, const Real* column) {
         for (int k = 0; k < 8; ++k) p[0][k] = column[k];
     }
     /// Four columns.
-    static void load_short_rows(const double* const* p, Real* column) {
+    PELLETLAB_LANES static void load_short_rows(const double* const* p, Real* column) {
         for (int k = 0; k < 4; ++k) column[k] = p[0][k];
     }
-    static void store_short_rows(double* const* p, const Real* column) {
+    PELLETLAB_LANES static void store_short_rows(double* const* p, const Real* column) {
         for (int k = 0; k < 4; ++k) p[0][k] = column[k];
     }
     /// Writes the lanes whose bit is set, one after the other, and may write rubbish behind them, up to `width` numbers in all.
-    static void store_chosen(double* p, unsigned, Real a) { *p = a; }
+    PELLETLAB_LANES static void store_chosen(double* p, unsigned, Real a) { *p = a; }
 };
 
 template <class V>
@@ -49,23 +52,23 @@ struct Triple {
 };
 
 template <class V>
-inline Triple<V> operator+(const Triple<V>& a, const Triple<V>& b) {
+PELLETLAB_LANES inline Triple<V> operator+(const Triple<V>& a, const Triple<V>& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 template <class V>
-inline Triple<V> operator-(const Triple<V>& a, const Triple<V>& b) {
+PELLETLAB_LANES inline Triple<V> operator-(const Triple<V>& a, const Triple<V>& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 template <class V>
-inline Triple<V> operator*(const Triple<V>& a, const V& s) {
+PELLETLAB_LANES inline Triple<V> operator*(const Triple<V>& a, const V& s) {
     return {a.x * s, a.y * s, a.z * s};
 }
 template <class V>
-inline V dot(const Triple<V>& a, const Triple<V>& b) {
+PELLETLAB_LANES inline V dot(const Triple<V>& a, const Triple<V>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 template <class V>
-inline Triple<V> cross(const Triple<V>& a, const Triple<V>& b) {
+PELLETLAB_LANES inline Triple<V> cross(const Triple<V>& a, const Triple<V>& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
@@ -76,7 +79,7 @@ struct Rotation {
 };
 
 template <class L, class V = typename L::Real>
-inline Rotation<V> rotation_of(const V& w, const V& x, const V& y, const V& z) {
+PELLETLAB_LANES inline Rotation<V> rotation_of(const V& w, const V& x, const V& y, const V& z) {
     const V one = L::all(1.0), two = L::all(2.0);
     return {{one - two * (y * y + z * z), two * (x * y - w * z), two * (x * z + w * y)},
             {two * (x * y + w * z), one - two * (x * x + z * z), two * (y * z - w * x)},
@@ -84,13 +87,13 @@ inline Rotation<V> rotation_of(const V& w, const V& x, const V& y, const V& z) {
 }
 
 template <class V>
-inline Triple<V> rotate(const Rotation<V>& r, const Triple<V>& a) {
+PELLETLAB_LANES inline Triple<V> rotate(const Rotation<V>& r, const Triple<V>& a) {
     return {dot(r.x, a), dot(r.y, a), dot(r.z, a)};
 }
 
 /// Rᵀ a
 template <class V>
-inline Triple<V> rotate_back(const Rotation<V>& r, const Triple<V>& a) {
+PELLETLAB_LANES inline Triple<V> rotate_back(const Rotation<V>& r, const Triple<V>& a) {
     return r.x * a.x + r.y * a.y + r.z * a.z;
 }
 
@@ -100,7 +103,7 @@ struct Turn {
 };
 
 template <class V>
-inline Turn<V> product(const Turn<V>& a, const Turn<V>& b) {
+PELLETLAB_LANES inline Turn<V> product(const Turn<V>& a, const Turn<V>& b) {
     return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
             a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
