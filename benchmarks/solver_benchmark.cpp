@@ -4,6 +4,8 @@
 //   solver_benchmark box   --pellets 100000 --spheres 1 …
 // The state is prepared once (rain, settling, rotation) and kept in the checkpoint file; later calls start from it. With --bodies FILE it starts from the
 // bodies of another program instead: a line each, place, turn w x y z, velocity, spin.
+// With --run SECONDS --state FILE it goes on from there for that much simulated time instead of timing repeats: the state is saved every half minute, the
+// same command goes on after an interruption, and every hundredth of a second a line of CSV is printed (time, wall time, speed, energies, torque).
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -97,7 +99,7 @@ TriangleMesh open_box(double half, double height) {
 struct Options {
     std::string rig = "tube", state, bodies;
     int pellets = 2000, spheres = 82, steps = 1000, repeats = 5;
-    double rpm = 35.0, settle = 0.5, spin_up = 1.0, step = 1e-5, height = 0.0;
+    double rpm = 35.0, settle = 0.5, spin_up = 1.0, step = 1e-5, height = 0.0, run = 0.0;
     std::vector<int> threads{1, 2};
     solver::SearchSkins skins;
 };
@@ -124,6 +126,8 @@ Options read_options(int argc, char** argv) {
             o.settle = std::stod(value);
         else if (key == "--spin-up")
             o.spin_up = std::stod(value);
+        else if (key == "--run")
+            o.run = std::stod(value);
         else if (key == "--height")
             o.height = std::stod(value);
         else if (key == "--time-step")
@@ -245,6 +249,7 @@ void prepare(solver::Simulation& s, const Bench& b, const Options& o) {
         s.add_bodies(b.bodies, 1.0);
         if (o.rig == "drum") s.set_wall_motion(0, b.motion);
         s.advance(static_cast<std::uint64_t>(o.settle / o.step));  // contacts get their history back
+        if (!o.state.empty()) s.save_checkpoint(o.state);
         return;
     }
     s.add_bodies(b.bodies);
@@ -277,6 +282,36 @@ double memory_megabytes() {
     return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
+/// The long run of --run. Its end is a step count beside the state, so that an interrupted run knows how far it has to go.
+int long_run(solver::Simulation& s, const Options& o) {
+    if (o.state.empty()) throw usage_error("--run needs --state, where the run is kept");
+    const std::filesystem::path goal_file = o.state + ".goal";
+    std::uint64_t goal = s.step_count() + static_cast<std::uint64_t>(std::llround(o.run / o.step));
+    if (std::filesystem::exists(goal_file))
+        std::ifstream(goal_file) >> goal;
+    else
+        std::ofstream(goal_file) << goal;
+    set_thread_count(o.threads.back());
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    auto saved = start;
+    const std::uint64_t first = s.step_count(), chunk = static_cast<std::uint64_t>(std::llround(0.01 / o.step));
+    std::printf("time_s,wall_s,pellet_steps_per_s,kinetic_J,potential_J,drum_torque_Nm,sphere_contacts,largest_overlap_ratio,memory_MB\n");
+    while (s.step_count() < goal) {
+        s.advance(std::min(chunk, goal - s.step_count()));
+        const auto now = Clock::now();
+        const double wall = std::chrono::duration<double>(now - start).count();
+        const auto e = s.energy();
+        const auto c = s.contacts();
+        std::printf("%.5f,%.1f,%.4e,%.6e,%.6e,%.6e,%zu,%.4f,%.1f\n", s.time(), wall, o.pellets * static_cast<double>(s.step_count() - first) / wall,
+                    e.kinetic_translation + e.kinetic_rotation, e.gravity, -s.wall_loads()[0].torque.y(), c.sphere_contacts, c.largest_overlap_ratio,
+                    memory_megabytes());
+        std::fflush(stdout);
+        if (now - saved > std::chrono::seconds(30) || s.step_count() == goal) s.save_checkpoint(o.state), saved = Clock::now();
+    }
+    return 0;
+}
+
 int run(int argc, char** argv) {
     const Options o = read_options(argc, argv);
     const Bench b = make_bench(o);
@@ -284,6 +319,7 @@ int run(int argc, char** argv) {
     const auto advice = solver::advise_time_step(b.definition);
     solver::Simulation s(b.definition);
     prepare(s, b, o);
+    if (o.run > 0.0) return long_run(s, o);
     const auto contacts = s.contacts();
     const double n = o.pellets;
     std::printf("%s, %d pellets of %d spheres, time step %.3g s (%.0f %% of Rayleigh, %.0f %% of the contact limit)\n", o.rig.c_str(), o.pellets, o.spheres,
