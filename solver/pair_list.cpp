@@ -38,40 +38,51 @@ struct Search {
     double nearest_other = 0.0;
 };
 
-/// Sphere pairs closer than `skin`, sorted by (a, b). Gaps are looked at up to `reach` > skin.
+/// Sphere pairs closer than `skin`, sorted by (a, b). Gaps are looked at up to `reach` > skin. Along the line n between the bodies sphere a ends at
+/// top = a · n + r_a and sphere b begins at low = b · n − r_b; their gap is at least low − top, which leaves out all but the spheres that face each other.
 void search(const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& pose, double skin, double reach, Search& found) {
+    struct Facing {
+        double x, y, z, r, along;
+        std::uint16_t index;
+    };
+    thread_local std::vector<Facing> facing_j;  // scratch
     found.candidates.clear();
     found.nearest_other = reach;
     const Matrix3 r = matrix_of(pose.q[0], pose.q[1], pose.q[2], pose.q[3]);
-    thread_local std::vector<Ball> near_j;  // scratch
-    thread_local std::vector<std::uint16_t> index_j;
-    near_j.clear();
-    index_j.clear();
+    const double apart = std::sqrt(pose.p[0] * pose.p[0] + pose.p[1] * pose.p[1] + pose.p[2] * pose.p[2]);
+    const double inverse = apart > 0.0 ? 1.0 / apart : 0.0;
+    const double n[3] = {pose.p[0] * inverse, pose.p[1] * inverse, pose.p[2] * inverse};
+    double highest = -1e300, lowest = 1e300;
+    facing_j.clear();
+    for (const Ball& s : ti.balls) highest = std::max(highest, n[0] * s.x + n[1] * s.y + n[2] * s.z + s.r);
+    // n in the frame of j tells who faces i before anything is turned.
+    double m[3];
+    for (int k = 0; k < 3; ++k) m[k] = r.m[0][k] * n[0] + r.m[1][k] * n[1] + r.m[2][k] * n[2];
+    const double slack = 1e-12 * (apart + ti.bounding_radius + tj.bounding_radius);  // of rounding
     for (std::size_t b = 0; b < tj.balls.size(); ++b) {
-        const auto& s = tj.balls[b];
-        const double x = r.m[0][0] * s.x + r.m[0][1] * s.y + r.m[0][2] * s.z + pose.p[0];
-        const double y = r.m[1][0] * s.x + r.m[1][1] * s.y + r.m[1][2] * s.z + pose.p[1];
-        const double z = r.m[2][0] * s.x + r.m[2][1] * s.y + r.m[2][2] * s.z + pose.p[2];
-        const double limit = ti.bounding_radius + s.r + reach;
-        if (x * x + y * y + z * z < limit * limit) {
-            near_j.push_back({x, y, z, s.r});
-            index_j.push_back(static_cast<std::uint16_t>(b));
-        }
+        const Ball& s = tj.balls[b];
+        const double low = m[0] * s.x + m[1] * s.y + m[2] * s.z + apart - s.r - slack;
+        if (low >= highest + reach) continue;
+        lowest = std::min(lowest, low);
+        facing_j.push_back({r.m[0][0] * s.x + r.m[0][1] * s.y + r.m[0][2] * s.z + pose.p[0], r.m[1][0] * s.x + r.m[1][1] * s.y + r.m[1][2] * s.z + pose.p[1],
+                            r.m[2][0] * s.x + r.m[2][1] * s.y + r.m[2][2] * s.z + pose.p[2], s.r, low, static_cast<std::uint16_t>(b)});
     }
-    for (std::size_t a = 0; a < ti.balls.size(); ++a) {
-        const auto& s = ti.balls[a];
+    for (std::size_t a = 0; a < ti.balls.size() && !facing_j.empty(); ++a) {
+        const Ball& s = ti.balls[a];
+        const double top = n[0] * s.x + n[1] * s.y + n[2] * s.z + s.r;
+        if (lowest >= top + reach) continue;
         const double dx = s.x - pose.p[0], dy = s.y - pose.p[1], dz = s.z - pose.p[2];
         const double limit = tj.bounding_radius + s.r + reach;
         if (dx * dx + dy * dy + dz * dz >= limit * limit) continue;
-        for (std::size_t k = 0; k < near_j.size(); ++k) {
-            const auto& t = near_j[k];
+        for (const Facing& t : facing_j) {
+            if (t.along - top >= found.nearest_other) continue;
             const double ex = t.x - s.x, ey = t.y - s.y, ez = t.z - s.z;
             const double d2 = ex * ex + ey * ey + ez * ez;
             const double touch = s.r + t.r;
             const double within = touch + found.nearest_other;
             if (d2 >= within * within) continue;
             if (d2 < (touch + skin) * (touch + skin)) {
-                found.candidates.push_back({static_cast<std::uint16_t>(a), index_j[k]});
+                found.candidates.push_back({static_cast<std::uint16_t>(a), t.index});
             } else {
                 found.nearest_other = std::min(found.nearest_other, std::sqrt(d2) - touch);
             }
