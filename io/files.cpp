@@ -1,6 +1,8 @@
 #include "io/files.hpp"
 
+#include <fcntl.h>
 #include <openssl/evp.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -117,6 +119,15 @@ std::string read_text(const fs::path& file) {
     std::string text;
     for_each_piece(file, [&text](std::string_view piece) { text += piece; });
     return text;
+}
+
+void bring_to_disk(const fs::path& file) {
+    errno = 0;
+    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool good = descriptor >= 0 && ::fsync(descriptor) == 0;
+    const std::string why = reason();
+    if (descriptor >= 0) ::close(descriptor);
+    if (!good) throw bad_input("the file cannot be brought to the disk: " + why, "check the space on the disk", {file.string()});
 }
 
 void prepare_output_folder(const fs::path& folder) {

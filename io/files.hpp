@@ -13,6 +13,9 @@ void write_atomically(const std::filesystem::path& file, const std::function<voi
 void write_text(const std::filesystem::path& file, std::string_view text);
 std::string read_text(const std::filesystem::path& file);
 
+/// Returns once the file's content is on the disk and not only in the system's memory (fsync).
+void bring_to_disk(const std::filesystem::path& file);
+
 /// Makes the folder (and its parents) and proves that it can be written; Error(bad_input) otherwise.
 void prepare_output_folder(const std::filesystem::path& folder);
 

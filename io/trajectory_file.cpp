@@ -15,7 +15,7 @@ using detail::Storage;
 namespace fs = std::filesystem;
 
 constexpr const char* format_name = "pelletlab-trajectory";
-constexpr std::uint64_t format_version = 1;
+constexpr std::uint64_t format_version = 2;  // 2: sealed
 
 std::string numbered(const char* group, std::size_t index, const char* member) {
     return "/" + std::string(group) + "/" + std::to_string(index) + "/" + member;

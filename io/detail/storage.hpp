@@ -39,7 +39,8 @@ public:
     std::size_t row_count(const std::string& path, const std::vector<std::size_t>& row_shape) const;
     void read_row(const std::string& path, std::size_t index, std::span<double> row) const;
 
-    /// Writes everything out and closes the file; the destructor closes without a word about failures.
+    /// Writes everything out, closes the file and seals it (seal.hpp): open() refuses a file that is not whole. The destructor closes without a word about
+    /// failures, and without the seal.
     void close();
 
 private:
