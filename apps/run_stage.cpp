@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "apps/run_keeper.hpp"
 #include "apps/shape_stage.hpp"
 #include "apps/stage.hpp"
 #include "apps/terminal.hpp"
@@ -46,17 +46,13 @@ StageKey key_of(const Case& c, const fs::path& clump_file) {
     return key;
 }
 
-packing::RunResult run_rig(const Case& c, const packing::RunInputs& inputs, const fs::path& trajectory_file) {
-    std::unique_ptr<io::TrajectoryWriter> writer;
-    const auto open_sink = [&](const TrajectoryHeader& header) -> packing::FrameSink {
-        writer = std::make_unique<io::TrajectoryWriter>(trajectory_file, header);
-        return [&writer](const Frame& frame) { writer->append(frame); };
-    };
+packing::RunResult run_rig(const Case& c, const packing::RunInputs& inputs, RunKeeper& keeper, const fs::path& trajectory_file) {
+    const auto open_sink = [&](const TrajectoryHeader& header) { return keeper.open(header); };
     ProgressPrinter progress;
-    packing::RunResult result =
-        c.rig == Rig::tube ? packing::fill_tube(c, inputs, open_sink, progress.sink()) : experiments::run_drum(c, inputs, open_sink, progress.sink());
+    packing::RunResult result = c.rig == Rig::tube ? packing::fill_tube(c, inputs, open_sink, progress.sink(), keeper.keeping())
+                                                   : experiments::run_drum(c, inputs, open_sink, progress.sink(), keeper.keeping());
     progress.finish();
-    writer->finish();
+    keeper.finish(trajectory_file);
     return result;
 }
 
@@ -90,6 +86,42 @@ void write_pictures(const Case& c, const FrameSource& trajectory, const Observab
     }
 }
 
+/// The case with its relative paths turned so that they lead to the same files from `folder`.
+Case as_seen_from(Case c, const fs::path& folder) {
+    for (std::string* file : {&c.pellet.clump_file, &c.tube.mesh_file, &c.drum.mesh_file})
+        if (!file->empty() && fs::path(*file).is_relative()) *file = fs::relative(beside_case(c, *file), folder).generic_string();
+    return c;
+}
+
+/// Steps the rig, measures, and puts the results in their place.
+RunSummary finish_run(const Case& c, const StageKey& key, const packing::RunInputs& inputs, StageFolder& stage, RunKeeper& keeper, RunSummary summary,
+                      const Stopwatch& stopwatch) {
+    const fs::path& folder = stage.unfinished();
+    packing::RunResult result = run_rig(c, inputs, keeper, folder / "run.h5");
+    result.observables.provenance = inputs.provenance;
+    print_observables(result.observables);
+    io::write_text(folder / "case.resolved.toml", io::resolved_case_text(as_seen_from(c, summary.folder)));
+    io::write_observables(result.observables, folder / "observables.json");
+    Written written{{"run.h5", "trajectory, HDF5"}, {"observables.json", "measured values, profiles and maps"}};
+    const auto trajectory = io::open_trajectory(folder / "run.h5");
+    if (c.output.paraview) {
+        io::write_paraview(*trajectory, folder / "paraview", c.output.paraview_every);
+        written.emplace_back("paraview/bodies.pvd", "ParaView; spheres.pvd and walls.pvd beside it");
+    }
+    if (c.output.pictures) write_pictures(c, *trajectory, result.observables, folder, written);
+    throw_if_interrupted();
+    stage.finish(key);
+    for (const auto& [file, what] : written) print_written(summary.folder / file, what);
+
+    summary.status = result.observables.status;
+    summary.state_hash = result.state_hash;
+    summary.wall_seconds = stopwatch.seconds();
+    summary.pellet_steps_per_second = result.pellet_steps_per_second;
+    print_line(fmt::format("  {} steps, {:.3g} pellet-steps/s, state hash {:016x}, took {}, peak memory {:.0f} MB", result.steps,
+                           result.pellet_steps_per_second, result.state_hash, duration_text(summary.wall_seconds), peak_memory_megabytes()));
+    return summary;
+}
+
 }  // namespace
 
 RunSummary run_case(const RunRequest& request, Rig expected) {
@@ -119,31 +151,17 @@ RunSummary run_case(const RunRequest& request, Rig expected) {
     inputs.resolved_case = key.settings;
     inputs.provenance = provenance_of(key, c.seed);
 
-    StageFolder stage(summary.folder);
-    const fs::path& folder = stage.unfinished();
-    packing::RunResult result = run_rig(c, inputs, folder / "run.h5");
-    result.observables.provenance = inputs.provenance;
-    print_observables(result.observables);
-    io::write_text(folder / "case.resolved.toml", inputs.resolved_case);
-    io::write_observables(result.observables, folder / "observables.json");
-    Written written{{"run.h5", "trajectory, HDF5"}, {"observables.json", "measured values, profiles and maps"}};
-    const auto trajectory = io::open_trajectory(folder / "run.h5");
-    if (c.output.paraview) {
-        io::write_paraview(*trajectory, folder / "paraview", c.output.paraview_every);
-        written.emplace_back("paraview/bodies.pvd", "ParaView; spheres.pvd and walls.pvd beside it");
+    const std::string owner = key.fingerprint();
+    const auto from = checkpoint_to_go_on_from(StageFolder::resume_folder_of(summary.folder), owner, request);
+    StageFolder stage(summary.folder, from ? StageFolder::Leftovers::resume : StageFolder::Leftovers::remove);
+    RunKeeper keeper(stage, owner, request.checkpoint_interval, from);
+    try {
+        return finish_run(c, key, inputs, stage, keeper, std::move(summary), stopwatch);
+    } catch (const Error& error) {
+        if (!keeper.has_checkpoint()) throw;
+        throw Error(error.kind(), error.problem() + "; a checkpoint is kept in " + stage.resume_folder().string(),
+                    (error.remedy().empty() ? "" : error.remedy() + "; ") + "--resume goes on from the checkpoint", error.place());
     }
-    if (c.output.pictures) write_pictures(c, *trajectory, result.observables, folder, written);
-    throw_if_interrupted();
-    stage.finish(key);
-    for (const auto& [file, what] : written) print_written(summary.folder / file, what);
-
-    summary.status = result.observables.status;
-    summary.state_hash = result.state_hash;
-    summary.wall_seconds = stopwatch.seconds();
-    summary.pellet_steps_per_second = result.pellet_steps_per_second;
-    print_line(fmt::format("  {} steps, {:.3g} pellet-steps/s, state hash {:016x}, took {}, peak memory {:.0f} MB", result.steps,
-                           result.pellet_steps_per_second, result.state_hash, duration_text(summary.wall_seconds), peak_memory_megabytes()));
-    return summary;
 }
 
 }  // namespace pelletlab::apps

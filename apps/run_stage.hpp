@@ -10,11 +10,20 @@
 
 namespace pelletlab::apps {
 
+/// What to do with the checkpoint that an interrupted run of the same case left.
+enum class Resume {
+    refuse,      ///< say that it is there: it may be worth hours
+    yes,         ///< go on from it; that of another case is an error; begin at the beginning when there is none
+    if_possible  ///< the same, but begin at the beginning when it belongs to another case
+};
+
 struct RunRequest {
     std::filesystem::path case_file;
     std::vector<std::string> overrides;  ///< «key=value»
     std::filesystem::path output;        ///< empty: out/<case name>
     bool force = false;
+    Resume resume = Resume::refuse;
+    double checkpoint_interval = 60.0;  ///< [s] of wall time; 0: none but that of Ctrl-C
 };
 
 struct RunSummary {

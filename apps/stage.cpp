@@ -53,21 +53,40 @@ bool stage_is_finished(const fs::path& folder, const StageKey& key) {
     return true;
 }
 
-StageFolder::StageFolder(fs::path folder) : folder_(std::move(folder)), unfinished_(folder_ / "unfinished.part"), is_new_(!fs::exists(folder_)) {
+StageFolder::StageFolder(fs::path folder, Leftovers leftovers)
+    : folder_(std::move(folder)),
+      unfinished_(folder_ / "unfinished.part"),
+      is_new_(!fs::exists(folder_)),
+      keeps_resume_folder_(leftovers == Leftovers::resume) {
     io::prepare_output_folder(folder_);
-    fs::remove_all(unfinished_);
+    if (keeps_resume_folder_)
+        clear_but_resume_folder();
+    else
+        fs::remove_all(unfinished_);
     io::prepare_output_folder(unfinished_);
+    io::prepare_output_folder(resume_folder());
 }
 
 StageFolder::~StageFolder() {
     std::error_code ignored;
+    if (keeps_resume_folder_) {
+        clear_but_resume_folder();
+        return;
+    }
     fs::remove_all(unfinished_, ignored);
     if (is_new_) fs::remove(folder_, ignored);  // succeeds for an empty folder only
 }
 
+void StageFolder::clear_but_resume_folder() {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(unfinished_, ignored))
+        if (entry.path() != resume_folder()) fs::remove_all(entry.path(), ignored);
+}
+
 void StageFolder::finish(const StageKey& key) {
     std::vector<std::string> files;
-    for (const auto& entry : fs::directory_iterator(unfinished_)) files.push_back(entry.path().filename().string());
+    for (const auto& entry : fs::directory_iterator(unfinished_))
+        if (entry.path() != resume_folder()) files.push_back(entry.path().filename().string());
     std::sort(files.begin(), files.end());
     nlohmann::json mark;
     mark["fingerprint"] = key.fingerprint();
@@ -86,6 +105,7 @@ void StageFolder::finish(const StageKey& key) {
         fs::rename(unfinished_ / file, folder_ / file);
     }
     io::write_text(mark_of(folder_), mark.dump(2) + "\n");
+    keeps_resume_folder_ = false;
 }
 
 }  // namespace pelletlab::apps

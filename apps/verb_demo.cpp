@@ -65,13 +65,16 @@ void run_demo(const DemoOptions& options) {
     });
     copy_case(source / "examples/tube.toml", out / "tube.toml");
     copy_case(source / "examples/drum.toml", out / "drum.toml");
-    run("fill: 1000 pellets into a tube of 52 mm", [&] { return speed_of(run_case({out / "tube.toml", {}, out / "tube", options.force}, Rig::tube)); });
+    run("fill: 1000 pellets into a tube of 52 mm", [&] {
+        return speed_of(run_case({out / "tube.toml", {}, out / "tube", options.force, Resume::if_possible}, Rig::tube));
+    });
     for (const char* rpm : {"20", "50"})
         run(fmt::format("drum: D 80 x L 20 mm at {} rpm", rpm), [&] {
             return speed_of(run_case({out / "drum.toml",
                                       {fmt::format("name=drum-{}rpm", rpm), fmt::format("drum.speed={} rpm", rpm)},
                                       out / fmt::format("drum-{}rpm", rpm),
-                                      options.force},
+                                      options.force,
+                                      Resume::if_possible},
                                      Rig::drum));
         });
 

@@ -107,45 +107,57 @@ std::uint32_t pellet_count(const DrumRig& drum, double pellet_volume) {
 }
 
 packing::RunResult run_drum(const Case& c, const packing::RunInputs& inputs, const std::function<packing::FrameSink(const TrajectoryHeader&)>& open_sink,
-                            const ProgressSink& progress) {
+                            const ProgressSink& progress, const packing::RunKeeping& keeping) {
     if (c.rig != Rig::drum) throw bad_input("the case '" + c.name + "' is not a drum", "set rig = \"drum\"");
     solver::Simulation simulation(packing::define_simulation(c, inputs, drum_walls(c)));
     const RigidTemplate& pellet = simulation.definition().templates.front();
     const std::uint32_t count = c.pellet.count > 0 ? c.pellet.count : pellet_count(c.drum, pellet.mass_properties.volume);
-    simulation.add_bodies(packing::loose_cloud(pellet, count, cloud_region(c, pellet, count), c.seed, {0.0, 0.0, -c.insertion.fall_speed}));
+    if (!keeping.from) simulation.add_bodies(packing::loose_cloud(pellet, count, cloud_region(c, pellet, count), c.seed, {0.0, 0.0, -c.insertion.fall_speed}));
 
     Trajectory measured;
+    packing::FrameSink stored;
+    bool measuring = false;
+    packing::Course course(
+        simulation,
+        [&](const Frame& frame) {
+            if (stored) stored(frame);
+            if (measuring) measured.frames.push_back(frame);
+        },
+        progress, keeping);
     measured.head = packing::trajectory_header(c, inputs, simulation);
-    const packing::FrameSink stored = open_sink ? open_sink(measured.head) : packing::FrameSink();
-    if (stored) stored(packing::capture_frame(simulation));
-    packing::RunMeter meter;
+    if (open_sink) stored = open_sink(measured.head);
+    if (!course.is_catching_up()) course.store(packing::capture_frame(simulation));
     const double sparse_interval = sparse * c.output.frame_interval;
-    packing::settle(simulation, c, sparse_interval, stored, progress, meter);
+    packing::settle(course, simulation, c, sparse_interval);
 
-    start_rotation(simulation, c.drum);
+    if (!course.is_catching_up()) start_rotation(simulation, c.drum);
     packing::Stage spin_up;
     spin_up.name = "spinning up";
     spin_up.duration = c.time.spin_up;
     spin_up.frame_interval = sparse_interval;
     spin_up.watch_interval = watch_interval;
-    packing::run_stage(simulation, spin_up, stored, progress, meter);
+    course.run(spin_up);
 
     packing::Stage measure;
     measure.name = "measuring";
     measure.duration = c.time.measure;
     measure.frame_interval = c.output.frame_interval;
     measure.watch_interval = watch_interval;
-    std::vector<double> torques;
-    measure.watch = [&](const solver::Simulation& now) {
-        torques.push_back(drive_torque(now, c.drum));
+    // What the stage remembers: its first time, its first frame, and the torques.
+    measure.memory = {simulation.time(), static_cast<double>(course.frames_stored())};
+    measure.watch = [&](const solver::Simulation& now, std::vector<double>& memory) {
+        memory.push_back(drive_torque(now, c.drum));
         return false;
     };
-    const TimeWindow window{simulation.time(), simulation.time() + c.time.measure};
-    const packing::FrameSink kept = [&](const Frame& frame) {
-        if (stored) stored(frame);
-        measured.frames.push_back(frame);
-    };
-    packing::run_stage(simulation, measure, kept, progress, meter);
+    if (course.is_catching_up()) {
+        const std::vector<double>& memory = keeping.from->memory;
+        for (auto k = static_cast<std::size_t>(memory.at(1)); k < course.frames_stored(); ++k) measured.frames.push_back(course.stored_frame(k));
+    }
+    measuring = true;
+    course.run(measure);
+    const TimeWindow window{measure.memory.at(0), measure.memory.at(0) + c.time.measure};
+    const std::vector<double> torques(measure.memory.begin() + 2, measure.memory.end());
+    const packing::RunMeter& meter = course.meter;
 
     packing::RunResult result;
     result.observables = observables::measure_drum(measured, {0.5 * c.drum.diameter, c.drum.length, c.drum.speed, c.measurement.velocity_grid}, window);

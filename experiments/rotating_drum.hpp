@@ -6,9 +6,9 @@
 
 namespace pelletlab::experiments {
 
-/// The case's rig must be `drum`.
+/// The case's rig must be `drum`. Checkpoints as for fill_tube.
 packing::RunResult run_drum(const Case& c, const packing::RunInputs& inputs, const std::function<packing::FrameSink(const TrajectoryHeader&)>& open_sink,
-                            const ProgressSink& progress);
+                            const ProgressSink& progress, const packing::RunKeeping& keeping = {});
 
 /// Pellets that the fill fraction asks for: fill_fraction · drum volume · bulk_packing_fraction / pellet volume, rounded.
 std::uint32_t pellet_count(const DrumRig& drum, double pellet_volume);

@@ -74,29 +74,34 @@ Vec3 falling(const Case& c) {
 
 }  // namespace
 
-RunResult fill_tube(const Case& c, const RunInputs& inputs, const std::function<FrameSink(const TrajectoryHeader&)>& open_sink, const ProgressSink& progress) {
+RunResult fill_tube(const Case& c, const RunInputs& inputs, const std::function<FrameSink(const TrajectoryHeader&)>& open_sink, const ProgressSink& progress,
+                    const RunKeeping& keeping) {
     if (c.rig != Rig::tube) throw bad_input("the case '" + c.name + "' is not a tube", "set rig = \"tube\"");
     if (c.pellet.count == 0) throw bad_input("pellet.count is 0: a tube needs a number of pellets", "set pellet.count");
     solver::SimulationDefinition definition = define_simulation(c, inputs, {});
     const InsertionRegion region = cloud_region(c, definition.templates.front());
     definition.walls = tube_walls(c, region.upper);
     solver::Simulation simulation(std::move(definition));
-    simulation.add_bodies(loose_cloud(simulation.definition().templates.front(), c.pellet.count, region, c.seed, falling(c)));
+    if (!keeping.from) simulation.add_bodies(loose_cloud(simulation.definition().templates.front(), c.pellet.count, region, c.seed, falling(c)));
 
     Trajectory last;  // the bed is measured from one frame
+    FrameSink stored;
+    Course course(
+        simulation,
+        [&](const Frame& frame) {
+            if (stored) stored(frame);
+        },
+        progress, keeping);
     last.head = trajectory_header(c, inputs, simulation);
-    const FrameSink stored = open_sink ? open_sink(last.head) : FrameSink();
-    const FrameSink frames = [&](const Frame& frame) {
-        if (stored) stored(frame);
-        last.frames.assign(1, frame);
-    };
-    frames(capture_frame(simulation));
-    RunMeter meter;
-    const SettleStatus status = settle(simulation, c, c.output.frame_interval, frames, progress, meter);
+    if (open_sink) stored = open_sink(last.head);
+    if (!course.is_catching_up()) course.store(capture_frame(simulation));
+    const SettleStatus status = settle(course, simulation, c, c.output.frame_interval);
+    last.frames = {capture_frame(simulation)};
+    const RunMeter& meter = course.meter;
 
     RunResult result;
     result.observables = observables::measure_tube_bed(last, {0.5 * c.tube.diameter, 0.0, c.measurement.height_grid});
-    if (status == SettleStatus::not_at_rest) result.observables.status = "not at rest";
+    if (status == SettleStatus::not_at_rest) result.observables.status = "not at rest";  // says more than «thin bed»
     if (const double share = load_share(simulation, "floor"); std::isfinite(share))
         result.observables.values.push_back({"floor_load_share", "1", share, not_known, {simulation.time(), simulation.time()}, "tube.floor_load"});
     add_contact_figures(result.observables, simulation, meter);

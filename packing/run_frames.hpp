@@ -30,9 +30,4 @@ solver::WallDefinition define_wall(const Case& c, std::string name, TriangleMesh
 Frame capture_frame(const solver::Simulation& simulation);
 TrajectoryHeader trajectory_header(const Case& c, const RunInputs& inputs, const solver::Simulation& simulation);
 
-enum class SettleStatus { at_rest, not_at_rest };
-
-/// Steps until the kinetic energy per pellet stays below rest_kinetic_energy · m g d for 0.02 s, or the limit; stores a frame each frame_interval.
-SettleStatus settle(solver::Simulation& simulation, const Case& c, const FrameSink& frames, const ProgressSink& progress);
-
 }  // namespace pelletlab::packing

@@ -20,18 +20,19 @@ double energy_scale(const solver::Simulation& simulation) {
 
 }  // namespace
 
-SettleStatus settle(solver::Simulation& simulation, const Case& c, double frame_interval, const FrameSink& frames, const ProgressSink& progress,
-                    RunMeter& meter) {
-    const double scale = energy_scale(simulation), pellets = static_cast<double>(simulation.bodies().size());
-    double relative_energy = 0.0, quiet_since = -1.0;
+SettleStatus settle(Course& course, const solver::Simulation& simulation, const Case& c, double frame_interval) {
+    const double scale = energy_scale(simulation);
+    double relative_energy = 0.0;
     Stage stage;
     stage.name = "settling";
     stage.duration = c.time.settle_limit;
     stage.frame_interval = frame_interval;
     stage.watch_interval = watch_interval;
-    stage.watch = [&](const solver::Simulation& now) {
+    stage.memory = {-1.0};  // since when it is quiet [s]; negative: it is not
+    stage.watch = [&](const solver::Simulation& now, std::vector<double>& memory) {
+        double& quiet_since = memory.at(0);
         const solver::EnergyReport energy = now.energy();
-        relative_energy = (energy.kinetic_translation + energy.kinetic_rotation) / (pellets * scale);
+        relative_energy = (energy.kinetic_translation + energy.kinetic_rotation) / (static_cast<double>(now.bodies().size()) * scale);
         if (!(relative_energy < c.time.rest_kinetic_energy)) {
             quiet_since = -1.0;
         } else if (quiet_since < 0.0) {
@@ -44,12 +45,7 @@ SettleStatus settle(solver::Simulation& simulation, const Case& c, double frame_
         std::snprintf(text, sizeof text, "kinetic energy %.1e m g d a pellet", relative_energy);
         return std::string(text);
     };
-    return run_stage(simulation, stage, frames, progress, meter) == StageEnd::watch_ended_it ? SettleStatus::at_rest : SettleStatus::not_at_rest;
-}
-
-SettleStatus settle(solver::Simulation& simulation, const Case& c, const FrameSink& frames, const ProgressSink& progress) {
-    RunMeter meter;
-    return settle(simulation, c, c.output.frame_interval, frames, progress, meter);
+    return course.run(stage) == StageEnd::watch_ended_it ? SettleStatus::at_rest : SettleStatus::not_at_rest;
 }
 
 }  // namespace pelletlab::packing

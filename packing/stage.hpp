@@ -1,47 +1,69 @@
-// A stretch of a run: steps taken in small batches between which frames are stored, progress is told, and the person who waits can stop it.
-// This loop is the one place where a run's simulated time passes, so it is where checkpoints will be taken and resumed runs will enter.
+// One stretch of simulated time that a rig steps through: frames are stored, progress is told, checkpoints are kept, and the person who waits can stop it.
+// This loop is the one place where a run's simulated time passes, so a resumed run enters here.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/progress.hpp"
+#include "packing/run_checkpoint.hpp"
 #include "packing/run_frames.hpp"
 #include "solver/simulation.hpp"
 
 namespace pelletlab::packing {
-
-/// What stepping has cost so far.
-struct RunMeter {
-    std::uint64_t steps = 0;
-    double wall_seconds = 0.0;           ///< of stepping alone
-    double largest_overlap_ratio = 0.0;  ///< overlap / radius of the smaller sphere, of all contacts at all watch times so far
-
-    double pellet_steps_per_second(std::size_t pellets) const {
-        return wall_seconds > 0.0 ? static_cast<double>(steps) * static_cast<double>(pellets) / wall_seconds : 0.0;
-    }
-};
 
 struct Stage {
     std::string name;             ///< «settling»
     double duration = 0.0;        ///< [s] of simulated time, the most
     double frame_interval = 0.0;  ///< [s] between stored frames; 0: none but the last
     double watch_interval = 0.0;  ///< [s] between looks at the contacts and calls of `watch`; 0: never
-    /// May be empty. Looks at the simulation (and may keep what it sees); true ends the stage.
-    std::function<bool(const solver::Simulation&)> watch;
+    /// May be empty. Looks at the simulation; true ends the stage. What it wants to remember from call to call belongs into `memory`.
+    std::function<bool(const solver::Simulation&, std::vector<double>& memory)> watch;
+    std::vector<double> memory;  ///< at the beginning of the stage; a resumed stage gets back what it was
     /// For Progress::note; may be empty.
     std::function<std::string()> note;
 };
 
-enum class StageEnd { time_is_up, watch_ended_it };
+/// The stages of one run, one after the other, with everything that they share.
+class Course {
+public:
+    /// Brings the simulation (without bodies) to where `keeping.from` was, if there is such a place.
+    Course(solver::Simulation& simulation, FrameSink frames, ProgressSink progress, RunKeeping keeping = {});
 
-/// Steps through the stage. Frames are stored at every frame_interval after its beginning and at its end (once). Times are rounded to whole steps, intervals to
-/// at least one. Throws Error(interrupted) between two batches of steps after a signal.
-StageEnd run_stage(solver::Simulation& simulation, const Stage& stage, const FrameSink& frames, const ProgressSink& progress, RunMeter& meter);
+    /// Steps through the stage. Frames are stored at every frame_interval after its beginning and at its end (once). Times are rounded to whole steps,
+    /// intervals to at least one. Throws Error(interrupted) between two batches of steps after a signal, with a checkpoint kept. A stage that a resumed run has
+    /// behind it is not run again. Afterwards stage.memory is what the watch left in it.
+    StageEnd run(Stage& stage);
 
-/// settle() of run_frames.hpp with its cost added to `meter` and a frame interval of its own.
-SettleStatus settle(solver::Simulation& simulation, const Case& c, double frame_interval, const FrameSink& frames, const ProgressSink& progress,
-                    RunMeter& meter);
+    /// True while what happens between stages has already happened: the resumed run was stopped in a later stage than those run so far. Placing bodies,
+    /// starting walls and storing the first frame are for runs that are not behind themselves.
+    bool is_catching_up() const { return keeping_.from.has_value(); }
+
+    void store(const Frame& frame);
+    std::size_t frames_stored() const { return frames_stored_; }
+    /// The k-th frame of the run; for those that were stored before a resumed run was stopped.
+    Frame stored_frame(std::size_t k) const { return keeping_.stored_frame(k); }
+
+    RunMeter meter;
+
+private:
+    void keep(const Stage& stage, std::uint64_t done);
+    solver::Simulation& simulation_;
+    FrameSink frames_;
+    ProgressSink progress_;
+    RunKeeping keeping_;
+    std::vector<StageEnd> ended_;
+    std::size_t frames_stored_ = 0;
+};
+
+/// The beginning of a stage's time, and steps in it: whole ones, at least one for a time above zero.
+std::uint64_t steps_in(double time, double step);
+
+enum class SettleStatus { at_rest, not_at_rest };
+
+/// Steps until the kinetic energy per pellet stays below rest_kinetic_energy · m g d for 0.02 s, or the limit.
+SettleStatus settle(Course& course, const solver::Simulation& simulation, const Case& c, double frame_interval);
 
 }  // namespace pelletlab::packing

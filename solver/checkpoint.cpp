@@ -2,10 +2,14 @@
 // lists are made anew, because results do not depend on them.
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <iterator>
+#include <string_view>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -25,7 +29,7 @@ struct Header {
     std::uint64_t fingerprint, payload_bytes, checksum;
 };
 
-std::uint64_t checksum_of(const std::vector<char>& bytes) {
+std::uint64_t checksum_of(std::string_view bytes) {
     detail::Hash hash;
     hash.add(static_cast<std::uint64_t>(bytes.size()));
     std::size_t k = 0;
@@ -45,8 +49,7 @@ public:
     template <class T>
     void put(const T& value) {
         static_assert(std::is_trivially_copyable_v<T>);
-        const char* p = reinterpret_cast<const char*>(&value);
-        bytes.insert(bytes.end(), p, p + sizeof(T));
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
     }
     void put(const Vec3& v) {
         for (int k = 0; k < 3; ++k) put(v[k]);
@@ -54,12 +57,12 @@ public:
     void put(const Quat& q) {
         for (int k = 0; k < 4; ++k) put(q.coeffs()[k]);
     }
-    std::vector<char> bytes;
+    std::string bytes;
 };
 
 class Reader {
 public:
-    Reader(const std::vector<char>& bytes, const std::string& file) : bytes_(bytes), file_(file) {}
+    Reader(std::string_view bytes, const std::string& file) : bytes_(bytes), file_(file) {}
     template <class T>
     T get() {
         need(sizeof(T));
@@ -68,14 +71,19 @@ public:
         at_ += sizeof(T);
         return value;
     }
+    double get_number() {
+        const auto x = get<double>();
+        if (!std::isfinite(x)) broken();
+        return x;
+    }
     Vec3 get_vec() {
         Vec3 v;
-        for (int k = 0; k < 3; ++k) v[k] = get<double>();
+        for (int k = 0; k < 3; ++k) v[k] = get_number();
         return v;
     }
     Quat get_quat() {
         Quat q;
-        for (int k = 0; k < 4; ++k) q.coeffs()[k] = get<double>();
+        for (int k = 0; k < 4; ++k) q.coeffs()[k] = get_number();
         return q;
     }
     /// A count of things of `size` bytes each that must fit into what is left.
@@ -90,7 +98,7 @@ public:
     [[noreturn]] void broken() const { throw bad_input("the checkpoint contradicts itself", "it is damaged: use an older one", {file_}); }
 
 private:
-    const std::vector<char>& bytes_;
+    std::string_view bytes_;
     std::string file_;
     std::size_t at_ = 0;
     void need(std::size_t n) const {
@@ -125,7 +133,7 @@ struct Saved {
     std::vector<SavedWall> walls;
 };
 
-std::vector<char> payload_of(const Simulation::State& s) {
+std::string payload_of(const Simulation::State& s) {
     Writer w;
     w.put(s.steps);
     w.put(static_cast<std::uint64_t>(s.bodies.size()));
@@ -167,7 +175,7 @@ std::vector<char> payload_of(const Simulation::State& s) {
     return std::move(w.bytes);
 }
 
-Saved read_payload(const std::vector<char>& bytes, const std::string& file, const Simulation::State& s) {
+Saved read_payload(std::string_view bytes, const std::string& file, const Simulation::State& s) {
     Reader r(bytes, file);
     Saved saved;
     saved.steps = r.get<std::uint64_t>();
@@ -178,19 +186,23 @@ Saved read_payload(const std::vector<char>& bytes, const std::string& file, cons
         const auto t = r.get<std::uint32_t>();
         if (t >= s.templates.size()) r.broken();
         saved.bodies.set_template(i, t);
-        saved.bodies.set_numbers(i, r.get<Numbers>());
+        const auto numbers = r.get<Numbers>();
+        if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); })) r.broken();
+        saved.bodies.set_numbers(i, numbers);
     }
     const std::size_t spring_count = r.get_count(sizeof(SavedSpring));
     for (std::size_t k = 0; k < spring_count; ++k) {
         saved.springs.push_back(r.get<SavedSpring>());
         const SavedSpring& spring = saved.springs.back();
         if (spring.i >= spring.j || spring.j >= n) r.broken();
+        for (const double x : spring.spring)
+            if (!std::isfinite(x)) r.broken();
     }
     const auto wall_count = r.get<std::uint64_t>();
     if (wall_count != s.walls.size()) r.broken();
     for (const detail::Wall& wall : s.walls) {
         Saved::SavedWall w;
-        w.motion.point = r.get_vec(), w.motion.axis = r.get_vec(), w.motion.rotation_speed = r.get<double>(), w.motion.velocity = r.get_vec();
+        w.motion.point = r.get_vec(), w.motion.axis = r.get_vec(), w.motion.rotation_speed = r.get_number(), w.motion.velocity = r.get_vec();
         w.motion_start = r.get<std::uint64_t>();
         if (w.motion_start > saved.steps) r.broken();
         w.start_pose.position = r.get_vec(), w.start_pose.orientation = r.get_quat();
@@ -198,7 +210,7 @@ Saved read_payload(const std::vector<char>& bytes, const std::string& file, cons
         const std::size_t count = r.get_count(12);
         for (std::size_t k = 0; k < count; ++k) {
             SavedHistory h{r.get<std::uint32_t>(), r.get<std::uint32_t>(), r.get<std::uint32_t>(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0.0};
-            h.normal = r.get_vec(), h.spring = r.get_vec(), h.torque = r.get_vec(), h.broken = r.get<double>();
+            h.normal = r.get_vec(), h.spring = r.get_vec(), h.torque = r.get_vec(), h.broken = r.get_number();
             if (h.body >= n || h.sphere >= s.templates[saved.bodies.template_of(h.body)].balls.size() || h.patch >= wall.mesh.patch_count) r.broken();
             w.history.push_back(h);
         }
@@ -214,7 +226,7 @@ Saved read_payload(const std::vector<char>& bytes, const std::string& file, cons
 }
 
 /// Puts the springs back into freshly found candidates. False when one has no place.
-bool install(Simulation::State& s, const Saved& saved) {
+bool install_springs(Simulation::State& s, const Saved& saved) {
     std::size_t next = 0;
     detail::for_each_record(s.pairs, s.bodies, [&](detail::PairRecord& record, detail::PairBlock& block) {
         const std::uint32_t i = s.bodies.id(record.i), j = s.bodies.id(record.j);
@@ -239,53 +251,8 @@ bool install(Simulation::State& s, const Saved& saved) {
     return next == saved.springs.size();
 }
 
-}  // namespace
-
-void Simulation::save_checkpoint(const std::filesystem::path& file) const {
-    const std::vector<char> payload = payload_of(*state_);
-    const Header header{magic, version, 0, detail::fingerprint(state_->definition), payload.size(), checksum_of(payload)};
-    std::filesystem::path temporary = file;
-    temporary += ".part";
-    const auto fail = [&](const std::string& what) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        return bad_input("the checkpoint cannot be written: " + what, "check the folder, its permissions and the free space", {file.string()});
-    };
-    std::FILE* out = std::fopen(temporary.c_str(), "wb");
-    if (!out) throw fail(std::strerror(errno));
-    bool good = std::fwrite(&header, sizeof header, 1, out) == 1 && (payload.empty() || std::fwrite(payload.data(), payload.size(), 1, out) == 1);
-    good = std::fflush(out) == 0 && good;
-    good = good && fsync(fileno(out)) == 0;  // the data must be on disk before the name points to them
-    const int reason = errno;
-    good = std::fclose(out) == 0 && good;
-    if (!good) throw fail(std::strerror(reason));
-    std::error_code error;
-    std::filesystem::rename(temporary, file, error);
-    if (error) throw fail(error.message());
-}
-
-void Simulation::load_checkpoint(const std::filesystem::path& file) {
-    State& s = *state_;
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw bad_input("the checkpoint cannot be read", "check the path and its permissions", {file.string()});
-    Header header;
-    if (!in.read(reinterpret_cast<char*>(&header), sizeof header) || header.magic != magic)
-        throw bad_input("this is not a checkpoint of PelletLab", "give a file that a run wrote", {file.string()});
-    if (header.version != version)
-        throw bad_input("the checkpoint has format version " + std::to_string(header.version) + ", this program reads " + std::to_string(version),
-                        "go on with the program that wrote it", {file.string()});
-    if (header.fingerprint != detail::fingerprint(s.definition))
-        throw bad_input("the checkpoint belongs to another case", "templates, walls, materials, gravity and time step must be the same", {file.string()});
-    std::error_code error;
-    const auto size = std::filesystem::file_size(file, error);
-    if (error || size != sizeof header + header.payload_bytes)
-        throw bad_input("the checkpoint is cut off or has a tail", "it is damaged: use an older one", {file.string()});
-    std::vector<char> payload(static_cast<std::size_t>(header.payload_bytes));
-    if (!payload.empty() && !in.read(payload.data(), static_cast<std::streamsize>(payload.size())))
-        throw bad_input("the checkpoint is cut off", "it is damaged: use an older one", {file.string()});
-    if (checksum_of(payload) != header.checksum) throw bad_input("the checkpoint's checksum is wrong", "it is damaged: use an older one", {file.string()});
-    const Saved saved = read_payload(payload, file.string(), s);
-
+/// Makes the simulation what was saved. False when it contradicts itself.
+bool put_in_place(Simulation::State& s, const Saved& saved) {
     s.steps = saved.steps;
     s.bodies = saved.bodies;
     for (std::size_t k = 0; k < s.walls.size(); ++k) {
@@ -308,7 +275,64 @@ void Simulation::load_checkpoint(const std::filesystem::path& file) {
     s.pairs.ordered_spread = s.pairs.spread;
     for (std::size_t i = 0; i < s.bodies.size(); ++i) detail::fill_record(s.bodies, s.templates[s.bodies.template_of(i)], i, s.kinematics[i]);
     s.view_is_current = false;
-    if (!install(s, saved)) throw bad_input("the checkpoint holds contacts of spheres that are far apart", "it is damaged: use an older one", {file.string()});
+    return install_springs(s, saved);
+}
+
+}  // namespace
+
+std::string Simulation::checkpoint() const {
+    const std::string payload = payload_of(*state_);
+    const Header header{magic, version, 0, detail::fingerprint(state_->definition), payload.size(), checksum_of(payload)};
+    return std::string(reinterpret_cast<const char*>(&header), sizeof header) + payload;
+}
+
+void Simulation::save_checkpoint(const std::filesystem::path& file) const {
+    const std::string bytes = checkpoint();
+    std::filesystem::path temporary = file;
+    temporary += ".part";
+    const auto fail = [&](const std::string& what) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        return bad_input("the checkpoint cannot be written: " + what, "check the folder, its permissions and the free space", {file.string()});
+    };
+    std::FILE* out = std::fopen(temporary.c_str(), "wb");
+    if (!out) throw fail(std::strerror(errno));
+    bool good = std::fwrite(bytes.data(), bytes.size(), 1, out) == 1;
+    good = std::fflush(out) == 0 && good;
+    good = good && fsync(fileno(out)) == 0;  // the data must be on disk before the name points to them
+    const int reason = errno;
+    good = std::fclose(out) == 0 && good;
+    if (!good) throw fail(std::strerror(reason));
+    std::error_code error;
+    std::filesystem::rename(temporary, file, error);
+    if (error) throw fail(error.message());
+}
+
+void Simulation::load_checkpoint(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw bad_input("the checkpoint cannot be read", "check the path and its permissions", {file.string()});
+    const std::string bytes(std::istreambuf_iterator<char>(in), {});
+    restore(bytes, file.string());
+}
+
+void Simulation::restore(std::string_view bytes, const std::string& name) {
+    State& s = *state_;
+    Header header;
+    if (bytes.size() >= sizeof header) std::memcpy(&header, bytes.data(), sizeof header);
+    if (bytes.size() < sizeof header || header.magic != magic) throw bad_input("this is not a checkpoint of PelletLab", "give a file that a run wrote", {name});
+    if (header.version != version)
+        throw bad_input("the checkpoint has format version " + std::to_string(header.version) + ", this program reads " + std::to_string(version),
+                        "go on with the program that wrote it", {name});
+    if (header.fingerprint != detail::fingerprint(s.definition))
+        throw bad_input("the checkpoint belongs to another case", "templates, walls, materials, gravity and time step must be the same", {name});
+    const std::string_view payload = bytes.substr(sizeof header);
+    if (payload.size() != header.payload_bytes) throw bad_input("the checkpoint is cut off or has a tail", "it is damaged: use an older one", {name});
+    if (checksum_of(payload) != header.checksum) throw bad_input("the checkpoint's checksum is wrong", "it is damaged: use an older one", {name});
+    const Saved saved = read_payload(payload, name, s);
+    const std::string before = payload_of(s);
+    if (put_in_place(s, saved)) return;
+    put_in_place(s, read_payload(before, name, s));
+    throw bad_input("the checkpoint holds contacts of spheres that are far apart", "it is damaged: use an older one", {name});
 }
 
 namespace detail {

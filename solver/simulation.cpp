@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -83,6 +84,19 @@ std::string place(const Vec3& p) {
     return text.str();
 }
 
+/// A wall that moves further than the smallest sphere's radius in one step passes through the bodies that it should push.
+void check_pace(const Simulation::State& s, const detail::Wall& wall, const WallMotion& motion) {
+    double reach = 0.0, smallest = std::numeric_limits<double>::infinity();
+    for (const Vec3& v : wall.mesh.vertices) reach = std::max(reach, (wall.pose.to_world(v) - motion.point).cross(motion.axis).norm());
+    for (const detail::BodyTemplate& t : s.templates) smallest = std::min(smallest, t.smallest_radius);
+    const double jump = (motion.velocity.norm() + std::abs(motion.rotation_speed) * reach) * s.definition.time_step;
+    if (jump <= smallest) return;
+    std::ostringstream text;
+    text << "wall «" << wall.name << "» jumps: from time " << s.time() << " s on it moves by up to " << jump << " m in a step of " << s.definition.time_step
+         << " s, more than the " << smallest << " m of the smallest sphere's radius";
+    throw bad_input(text.str(), "move it more slowly, or use a smaller time step");
+}
+
 }  // namespace
 
 Simulation::State::State(SimulationDefinition given) : definition(std::move(given)) {
@@ -136,6 +150,7 @@ Simulation::State::State(SimulationDefinition given) : definition(std::move(give
         walls.emplace_back(w, law, detail::contact_kernel(*kernels, d.physics, law), pairs.spring_rows);
         wall_skins.faces = std::max(wall_skins.faces, 1.01 * law.reach);
     }
+    for (const detail::Wall& wall : walls) check_pace(*this, wall, wall.motion);
     wall_loads.resize(walls.size());
     domain = d.domain.isEmpty() ? default_domain(d) : d.domain;
     fit_to_body_count();
@@ -226,6 +241,7 @@ void Simulation::set_wall_motion(std::size_t index, const WallMotion& motion) {
     if (index >= s.walls.size()) throw bad_input("there is no wall with index " + std::to_string(index), "see definition().walls");
     detail::Wall& wall = s.walls[index];
     check_motion(motion, wall.name);
+    check_pace(s, wall, motion);
     wall.motion = motion;
     wall.motion_start = s.steps;
     wall.start_pose = wall.pose;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/rigid_template.hpp"
@@ -155,6 +156,7 @@ public:
     void step();
     void advance(std::uint64_t steps);
 
+    /// The motion begins now, where the wall is. Throws Error(bad_input) for one that jumps: further in a step than the smallest sphere's radius.
     void set_wall_motion(std::size_t wall, const WallMotion& motion);
 
     double time() const;
@@ -175,7 +177,12 @@ public:
     /// Hash over every bit that decides the future: poses, velocities, contact history, wall poses.
     std::uint64_t state_hash() const;
 
-    /// Written to a temporary name and renamed. A restored simulation goes on bit for bit.
+    /// Everything that decides the future, with a checksum: a restored simulation of the same definition goes on bit for bit.
+    std::string checkpoint() const;
+    /// Throws Error(bad_input), and changes nothing, for bytes that are damaged or of another definition; `name` says in the message where they come from.
+    void restore(std::string_view bytes, const std::string& name);
+
+    /// The same in a file, written to a temporary name, brought to the disk and renamed.
     void save_checkpoint(const std::filesystem::path& file) const;
     void load_checkpoint(const std::filesystem::path& file);
 

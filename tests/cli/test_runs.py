@@ -55,6 +55,15 @@ class Runs(PelletlabTest):
         self.assertEqual(self.read("out/case.resolved.toml").rstrip("\n"),
                          self.succeeds("case", "check", "out/case.resolved.toml").out.rstrip("\n"))
 
+    def test_the_resolved_case_in_the_results_runs_from_there(self):
+        os.mkdir(self.path("cases"))
+        self.take_clump()
+        self.succeeds("case", "new", "tube", "-o", "cases/tube.toml")
+        one = self.succeeds("fill", "cases/tube.toml", *SMALL, "--set", "pellet.clump_file=../pellet.clump.toml", "-o", "results/deep/one")
+        self.assertIn('clump_file = "../../../pellet.clump.toml"', self.read("results/deep/one/case.resolved.toml"))
+        two = self.succeeds("fill", "results/deep/one/case.resolved.toml", "-o", "two")
+        self.assertEqual(self.state_hash(one), self.state_hash(two))
+
     def test_same_bits_for_one_and_two_threads(self):
         file = self.new_case()
         setting = SMALL + ["--set", "pellet.count=40", "--set", "time.settle_limit=0.05 s"]
@@ -147,19 +156,21 @@ class InterruptedRuns(PelletlabTest):
     def part_file(self):
         return any(name.endswith(".part") for name in self.everything())
 
-    def leaves_nothing(self, result):
+    def leaves_a_checkpoint_only(self, result):
+        """See test_resume.py for what becomes of it."""
         self.assertEqual(result.code, INTERRUPTED, result)
         self.assertIn("interrupt", result.err.lower(), result)
-        left = [name for name in self.everything() if name.endswith(".part") or os.path.basename(name) in RESULTS]
-        self.assertEqual(left, [], result)
+        left = [name for name in self.everything() if name.startswith("out/") and not os.path.isdir(self.path(name))]
+        self.assertIn("out/unfinished.part/resume/run.checkpoint", left, result)
+        self.assertTrue(all(name.startswith("out/unfinished.part/resume/") for name in left), left)
 
     def test_ctrl_c_in_the_middle_of_a_run(self):
         process = self.start("fill", self.new_case(), *LONG, "-o", "out")
-        self.leaves_nothing(self.interrupt(process, self.part_file))
+        self.leaves_a_checkpoint_only(self.interrupt(process, self.part_file))
 
     def test_sigterm_in_the_middle_of_a_run(self):
         process = self.start("drum", self.new_case("drum"), *LONG, "-o", "out")
-        self.leaves_nothing(self.interrupt(process, self.part_file, signal.SIGTERM))
+        self.leaves_a_checkpoint_only(self.interrupt(process, self.part_file, signal.SIGTERM))
 
     def test_ctrl_c_in_the_middle_of_a_fit(self):
         bodies.write_binary_stl(self.path("pellet.stl"), bodies.cylinder(facets=96))

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <set>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -95,6 +96,43 @@ TEST(RotatingDrum, SameBitsForOneAndTwoThreads) {
     set_thread_count(0);
     EXPECT_EQ(one.state_hash, two.state_hash);
     EXPECT_EQ(find(one.observables, "upper_angle_of_repose").value, find(two.observables, "upper_angle_of_repose").value);
+}
+
+TEST(RotatingDrum, GoesOnFromAnyCheckpointAsIfNothingHadHappened) {
+    Case c = drum_case(40);
+    c.time.settle_limit = 0.05;
+    c.time.spin_up = 0.05;
+    c.time.measure = 0.1;
+    std::vector<Frame> frames;
+    std::vector<packing::RunCheckpoint> checkpoints;
+    packing::RunKeeping keeping;
+    int asked = 0;
+    keeping.due = [&] { return ++asked % 30 == 0; };
+    keeping.keep = [&](const packing::RunCheckpoint& checkpoint) { checkpoints.push_back(checkpoint); };
+    const auto store_in = [](std::vector<Frame>& list) {
+        return [&list](const TrajectoryHeader&) { return packing::FrameSink([&list](const Frame& frame) { list.push_back(frame); }); };
+    };
+    const auto whole = run_drum(c, dumbbell_inputs(), store_in(frames), {}, keeping);
+    std::set<std::size_t> stages;
+    for (const packing::RunCheckpoint& checkpoint : checkpoints) {
+        stages.insert(checkpoint.ended.size());
+        packing::RunKeeping resume;
+        resume.from = checkpoint;
+        resume.stored_frame = [&](std::size_t k) { return frames.at(k); };
+        std::vector<Frame> again(frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(checkpoint.frames));
+        const auto result = run_drum(c, dumbbell_inputs(), store_in(again), {}, resume);
+        EXPECT_EQ(result.state_hash, whole.state_hash);
+        EXPECT_EQ(result.observables.status, whole.observables.status);
+        ASSERT_EQ(result.observables.values.size(), whole.observables.values.size());
+        for (std::size_t k = 0; k < whole.observables.values.size(); ++k) {
+            const Observable &a = whole.observables.values[k], &b = result.observables.values[k];
+            EXPECT_TRUE(a.value == b.value || (std::isnan(a.value) && std::isnan(b.value))) << a.name;
+            EXPECT_EQ(a.window.begin, b.window.begin) << a.name;
+        }
+        ASSERT_EQ(again.size(), frames.size());
+        for (std::size_t k = 0; k < frames.size(); ++k) EXPECT_EQ(again[k].positions, frames[k].positions) << k;
+    }
+    EXPECT_EQ(stages.size(), 3u) << "checkpoints in settling, spin-up and measurement";
 }
 
 TEST(RotatingDrum, TakesTheUsersOwnDrum) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
 
 #include "../../verification/solver/scene.hpp"
 #include "core/error.hpp"
@@ -95,6 +96,37 @@ TEST(Run, ABodyThatLeavesTheDomainIsNamedWithPlaceAndTime) {
     s.add_bodies(b);
     expect_error(ErrorKind::numerical, "body 1 left the domain", [&] { s.advance(2000); });
     EXPECT_NEAR(s.time(), 0.01, 1e-4);
+}
+
+TEST(Run, ABodyThatIsNoNumberAnyMoreIsNamedWithTimeAndStep) {
+    SimulationDefinition d = sound();
+    d.gravity = {0.0, 0.0, -1e308};  // speed and place overflow after some steps
+    d.walls.clear();
+    d.domain = Box(Vec3::Constant(-std::numeric_limits<double>::max()), Vec3::Constant(std::numeric_limits<double>::max()));
+    Simulation s(d);
+    std::vector<BodyPlacement> b(2);
+    b[1].pose.position = {1.0, 0, 0};
+    b[1].spin = {0, 0, 3.0};
+    s.add_bodies(b);
+    expect_error(ErrorKind::numerical, "body 0 has a position or a spin that is not a number", [&] { s.advance(3000000); });
+    expect_error(ErrorKind::numerical, "step", [&] { s.advance(1); });
+}
+
+TEST(Run, AWallThatJumpsIsRefused) {
+    SimulationDefinition d = sound();
+    Simulation s(d);
+    s.advance(5);
+    WallMotion m;
+    m.velocity = {0.0, 0.0, 101.0};  // 1.01 mm in a step of 10 µs; the sphere has 1 mm
+    expect_error(ErrorKind::bad_input, "wall «floor» jumps: from time 5e-05 s on it moves by up to 0.00101 m", [&] { s.set_wall_motion(0, m); });
+    m.velocity = Vec3::Zero();
+    m.axis = Vec3::UnitZ();
+    m.rotation_speed = 1500.0;  // the corners of the plate are 71 mm from the axis
+    expect_error(ErrorKind::bad_input, "jumps", [&] { s.set_wall_motion(0, m); });
+    s.advance(5);
+    EXPECT_EQ(s.wall_poses()[0].position, Vec3::Zero());  // nothing has happened
+    d.walls[0].motion = m;
+    expect_error(ErrorKind::bad_input, "jumps", [&] { Simulation other(d); });
 }
 
 TEST(Run, AddingBodiesLaterKeepsTheOnesThatAreThere) {
