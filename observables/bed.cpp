@@ -54,18 +54,23 @@ std::vector<std::size_t> bodies_inside(const Frame& frame, const TubeGeometry& t
     return bodies;
 }
 
-/// Mean height of the top surface over the grid lines within `reach` of the axis; a line that meets no pellet counts with height 0, the floor.
+constexpr double most_bare_floor = 0.1;  // of the grid lines; with more the bed has no top surface
+
+/// Mean height of the top surface over the grid lines within `reach` of the axis; a line that meets no pellet counts with height 0, the floor. Not known when more
+/// than a tenth of the lines meet none: the pellets do not cover the floor, and the mean would be no height of a bed.
 double grid_height(const Bed& bed, double reach) {
     const detail::HeightGrid grid = detail::top_surface(bed.header, bed.frame, bed.bodies, reach, bed.tube.height_grid);
     double sum = 0.0;
-    std::size_t lines = 0;
+    std::size_t lines = 0, bare = 0;
     for (int j = -grid.half_count; j <= grid.half_count; ++j)
         for (int i = -grid.half_count; i <= grid.half_count; ++i) {
             if (std::hypot(i, j) * grid.spacing > reach) continue;
-            sum += std::max(0.0, grid.height[grid.index(i, j)] - bed.tube.floor);
+            const double height = grid.height[grid.index(i, j)] - bed.tube.floor;
+            if (!(height > 0.0)) ++bare;
+            sum += std::max(0.0, height);
             ++lines;
         }
-    return sum / static_cast<double>(lines);
+    return static_cast<double>(bare) > most_bare_floor * static_cast<double>(lines) ? not_known : sum / static_cast<double>(lines);
 }
 
 /// Mean over the pellets that have an axis of |axis·z|; 0.5 for random orientations. NaN when no pellet has one.
@@ -147,6 +152,7 @@ Observables measure_tube_bed(const FrameSource& trajectory, const TubeGeometry& 
 
     Observables result;
     result.case_name = header.case_name;
+    if (std::isnan(h_grid)) result.status = "thin bed";
     result.provenance = header.provenance;
     const auto add = [&](const char* name, const char* unit, double value, const char* method) {
         result.values.push_back({name, unit, value, not_known, {frame.time, frame.time}, method});

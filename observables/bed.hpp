@@ -15,7 +15,8 @@ struct TubeGeometry {
 
 /// Bed height four ways (grid-averaged top surface, 95th percentile, highest pellet, from the centre of mass), packing fraction by each of them, core packing
 /// fraction, mean |axis·z|, mean centroid height, axial and radial packing profiles, all of the last frame: one instant, so standard errors are NaN.
-/// Pellets whose centre lies outside the tube are not counted. Throws Error(bad_input) for no frame, no pellet inside, or a geometry that is not positive.
+/// Pellets whose centre lies outside the tube are not counted. Where they leave more than a tenth of the floor bare, height and packing fraction of the grid are
+/// NaN and the status is «thin bed». Throws Error(bad_input) for no frame, no pellet inside, or a geometry that is not positive.
 Observables measure_tube_bed(const FrameSource& trajectory, const TubeGeometry& tube);
 
 }  // namespace pelletlab::observables

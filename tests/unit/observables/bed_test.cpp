@@ -76,6 +76,19 @@ TEST(TubeBed, TopSurfaceOfOneSphereIsItsCap) {
     EXPECT_NEAR(value_of(bed, "bed_height_grid"), 1e3 * r * 5.0 / 3.0, 1e3 * r * 3e-3);
 }
 
+TEST(TubeBed, AFewPelletsOnABareFloorHaveNoGridHeight) {
+    // The mean height of a bare floor with a pellet here and there is next to nothing, and the packing fraction from it was above 1.
+    const double r = 1e-3;
+    Frame frame;
+    for (int k = 0; k < 4; ++k) add_body(frame, {5e-3 * (k % 2 ? 1 : -1), 5e-3 * (k / 2 ? 1 : -1), r});
+    const Observables bed = measure_tube_bed(trajectory_of(sphere_pellet(r), {frame}), {20e-3, 0.0, r / 4.0});
+    EXPECT_EQ(bed.status, "thin bed");
+    EXPECT_TRUE(std::isnan(value_of(bed, "bed_height_grid")));
+    EXPECT_TRUE(std::isnan(value_of(bed, "packing_fraction_grid")));
+    EXPECT_NEAR(value_of(bed, "bed_height_h95"), 2.0, 1e-9);
+    EXPECT_LT(value_of(bed, "packing_fraction_h95"), 1.0);
+}
+
 TEST(TubeBed, TrueSurfaceGoesBeforeSpheres) {
     PelletShape pellet = box_pellet(2e-3, 1e-3);
     pellet.rigid.spheres = {{Vec3::Zero(), 4e-3}};
