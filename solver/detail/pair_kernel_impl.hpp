@@ -34,6 +34,15 @@ void find_poses(const PairBlockView& block, PairScratch& s) {
         const float* references[L::width];
         for (std::size_t lane = 0; lane < L::width; ++lane) {
             const PairRecord& r = block.records[k + lane < block.count ? k + lane : block.count - 1];
+            // Bodies of later pairs, and the lists of this one, are on their way while the poses are found.
+            const PairRecord& later = block.records[k + lane + 2 * L::width < block.count ? k + lane + 2 * L::width : block.count - 1];
+            __builtin_prefetch(block.kinematics[later.j].place);
+            __builtin_prefetch(block.kinematics[later.j].motion);
+            if (r.count > 0) {
+                __builtin_prefetch(block.candidates + r.first);
+                __builtin_prefetch(block.springs + r.first * block.spring_rows);
+                __builtin_prefetch(block.springs + r.first * block.spring_rows + 2);
+            }
             first[lane] = block.kinematics + r.i;
             second[lane] = block.kinematics + r.j;
             references[lane] = r.reference;
