@@ -56,6 +56,12 @@ public:
         if (!n.is_table()) throw wrong(key, n, "a table");
         return {*n.as_table(), full(key), file_};
     }
+    bool has(const std::string& key) const { return table_.contains(key); }  ///< keys that files of earlier versions do not have
+    std::size_t count(const std::string& key) {
+        const toml::node& n = node(key);
+        if (!n.is_integer() || n.as_integer()->get() < 0) throw wrong(key, n, "a whole number from 0");
+        return static_cast<std::size_t>(n.as_integer()->get());
+    }
     const toml::table& raw() const { return table_; }
 
     void finish() const {
@@ -110,10 +116,46 @@ Vec3 vector_of(const std::array<double, 3>& v) {
 }
 
 DistanceFigures read_distances(TableReader r) {
-    const DistanceFigures d{r.quantity("mean", dimension::length), r.quantity("rms", dimension::length), r.quantity("max", dimension::length),
-                            r.quantity("p99", dimension::length)};
+    DistanceFigures d{r.quantity("mean", dimension::length), r.quantity("rms", dimension::length), r.quantity("max", dimension::length),
+                      r.quantity("p99", dimension::length)};
+    d.signed_mean = r.has("signed_mean") ? r.quantity("signed_mean", dimension::length) : not_known;
     r.finish();
     return d;
+}
+
+SurfaceFigures read_surface(TableReader r) {
+    SurfaceFigures f;
+    const auto pair = [&r](const char* table, const char* a, double& first, const char* b, double& second) {
+        TableReader t = r.table(table);
+        first = t.quantity(a, dimension::length);
+        second = t.quantity(b, dimension::length);
+        t.finish();
+    };
+    const auto triple = [&r](const char* table, Dimension unit, const char* a, double& first, const char* b, double& second, const char* c, double& third) {
+        TableReader t = r.table(table);
+        first = t.quantity(a, unit);
+        second = t.quantity(b, unit);
+        third = t.quantity(c, unit);
+        t.finish();
+    };
+    pair("roughness_flat", "sq", f.flat_sq, "sz", f.flat_sz);
+    pair("roughness_curved", "sq", f.curved_sq, "sz", f.curved_sz);
+    triple("normal_deviation", dimension::angle, "mean", f.normal_mean, "rms", f.normal_rms, "p95", f.normal_p95);
+    pair("edge_gap", "mean", f.edge_gap_mean, "max", f.edge_gap_max);
+    pair("edge_radius", "mean", f.edge_radius_mean, "max", f.edge_radius_max);
+    triple("support_error", dimension::length, "mean", f.support_mean, "rms", f.support_rms, "max", f.support_max);
+    TableReader contacts = r.table("plane_contacts");
+    f.press = contacts.quantity("press", dimension::length);
+    f.contacts_on_flat = contacts.number("flat_mean");
+    f.most_on_flat = contacts.count("flat_most");
+    f.contacts_any_way = contacts.number("any_mean");
+    f.most_any_way = contacts.count("any_most");
+    contacts.finish();
+    pair("radius", "smallest", f.smallest_radius, "largest", f.largest_radius);
+    f.components = r.count("components");
+    f.sealed_volume = r.quantity("sealed_volume", dimension::volume);
+    r.finish();
+    return f;
 }
 
 FitQuality read_quality(TableReader r) {
@@ -122,10 +164,13 @@ FitQuality read_quality(TableReader r) {
     q.inertia_error = vector_of(r.list<3>("inertia_error", dimension::none));
     q.centre_offset = r.quantity("centre_offset", dimension::length);
     q.symmetric_difference = r.number("symmetric_difference");
+    q.missing = r.has("missing") ? r.number("missing") : not_known;
+    q.outside = r.has("outside") ? r.number("outside") : not_known;
     q.target_to_union = read_distances(r.table("body_to_union"));
     q.union_to_target = read_distances(r.table("union_to_body"));
     q.both = read_distances(r.table("both"));
     q.distance_error_bound = r.quantity("distance_error_bound", dimension::length);
+    if (r.has("surface")) q.surface = read_surface(r.table("surface"));
     r.finish();
     return q;
 }
@@ -151,6 +196,24 @@ MassProperties read_mass(TableReader r) {
     // I_a + I_b ≥ I_c holds for every body; the slack is for rounding of flat ones.
     if (2.0 * m.principal_inertia.maxCoeff() > m.principal_inertia.sum() * (1.0 + 1e-9))
         throw r.impossible("principal_inertia", "belongs to no body: one moment is larger than the sum of the two others");
+    return m;
+}
+
+MassProperties read_compared(TableReader r, double density) {
+    MassProperties m;
+    m.density = density;
+    m.volume = r.quantity("volume", dimension::volume);
+    m.mass = r.quantity("mass", dimension::mass);
+    m.centre_of_mass_mesh = vector_of(r.list<3>("centre", dimension::length));
+    m.principal_inertia = vector_of(r.list<3>("principal_inertia", dimension::moment_of_inertia));
+    r.finish();
+    return m;
+}
+
+MassComparison read_masses(TableReader r) {
+    const double density = r.quantity("density", dimension::density);
+    const MassComparison m{read_compared(r.table("body"), density), read_compared(r.table("union"), density), read_compared(r.table("sum"), density)};
+    r.finish();
     return m;
 }
 
@@ -221,6 +284,7 @@ ClumpTemplate parse_clump(const std::string& text, const std::string& file) {
     c.rigid.bounding_radius = bounding_radius(c.rigid.spheres);
     c.rigid.mass_properties = read_mass(r.table("mass_properties"));
     c.quality = read_quality(r.table("quality"));
+    if (r.has("masses")) c.masses = read_masses(r.table("masses"));
     TableReader mesh = r.table("mesh");
     c.mesh_file = mesh.text("file");
     c.mesh_unit = mesh.text("unit");

@@ -28,7 +28,7 @@ std::string quantities(const Vec3& v, const char* unit) {
 
 std::string distances_text(const char* name, const DistanceFigures& d) {
     return std::string(name) + " = { mean = " + quantity(d.mean, "mm") + ", rms = " + quantity(d.rms, "mm") + ", max = " + quantity(d.max, "mm") +
-           ", p99 = " + quantity(d.p99, "mm") + " }\n";
+           ", p99 = " + quantity(d.p99, "mm") + ", signed_mean = " + quantity(d.signed_mean, "mm") + " }\n";
 }
 
 std::string rounded(double value, const char* format) {
@@ -52,14 +52,33 @@ std::string header_text(const ClumpTemplate& clump) {
     return text;
 }
 
+std::string angle(double value) {
+    return quantity(value, "deg");
+}
+
+std::string surface_text(const SurfaceFigures& f) {
+    return "[quality.surface]\n"
+           "roughness_flat = { sq = " +
+           quantity(f.flat_sq, "mm") + ", sz = " + quantity(f.flat_sz, "mm") + " }\n" + "roughness_curved = { sq = " + quantity(f.curved_sq, "mm") +
+           ", sz = " + quantity(f.curved_sz, "mm") + " }\n" + "normal_deviation = { mean = " + angle(f.normal_mean) + ", rms = " + angle(f.normal_rms) +
+           ", p95 = " + angle(f.normal_p95) + " }\n" + "edge_gap = { mean = " + quantity(f.edge_gap_mean, "mm") + ", max = " + quantity(f.edge_gap_max, "mm") +
+           " }\n" + "edge_radius = { mean = " + quantity(f.edge_radius_mean, "mm") + ", max = " + quantity(f.edge_radius_max, "mm") + " }\n" +
+           "support_error = { mean = " + quantity(f.support_mean, "mm") + ", rms = " + quantity(f.support_rms, "mm") +
+           ", max = " + quantity(f.support_max, "mm") + " }\n" + "plane_contacts = { press = " + quantity(f.press, "mm") +
+           ", flat_mean = " + plain(f.contacts_on_flat) + ", flat_most = " + std::to_string(f.most_on_flat) + ", any_mean = " + plain(f.contacts_any_way) +
+           ", any_most = " + std::to_string(f.most_any_way) + " }\n" + "radius = { smallest = " + quantity(f.smallest_radius, "mm") +
+           ", largest = " + quantity(f.largest_radius, "mm") + " }\n" + "components = " + std::to_string(f.components) + "\n" +
+           "sealed_volume = " + quantity(f.sealed_volume, "mm^3") + "\n";
+}
+
 std::string quality_text(const FitQuality& q) {
     return "[quality]  # union of the spheres against the body\n"
            "volume_error = " +
            plain(q.volume_error) + "  # V_union / V_body - 1\n" + "inertia_error = [" + plain(q.inertia_error[0]) + ", " + plain(q.inertia_error[1]) + ", " +
            plain(q.inertia_error[2]) + "]  # smallest moment first\n" + "centre_offset = " + quantity(q.centre_offset, "mm") + "\n" +
-           "symmetric_difference = " + plain(q.symmetric_difference) + "  # (missing + outside volume) / V_body\n" +
-           distances_text("body_to_union", q.target_to_union) + distances_text("union_to_body", q.union_to_target) + distances_text("both", q.both) +
-           "distance_error_bound = " + quantity(q.distance_error_bound, "mm") + "\n";
+           "symmetric_difference = " + plain(q.symmetric_difference) + "  # (missing + outside volume) / V_body\n" + "missing = " + plain(q.missing) +
+           "\noutside = " + plain(q.outside) + "\n" + distances_text("body_to_union", q.target_to_union) + distances_text("union_to_body", q.union_to_target) +
+           distances_text("both", q.both) + "distance_error_bound = " + quantity(q.distance_error_bound, "mm") + "\n\n" + surface_text(q.surface);
 }
 
 std::string mass_text(const MassProperties& m) {
@@ -70,6 +89,20 @@ std::string mass_text(const MassProperties& m) {
            "centre_of_mass_mesh = " + quantities(m.centre_of_mass_mesh, "mm") + "  # in the frame of the mesh file\n" + "principal_axes = [" + plain(q.w()) +
            ", " + plain(q.x()) + ", " + plain(q.y()) + ", " + plain(q.z()) + "]  # quaternion w, x, y, z: body to mesh frame\n" +
            "principal_inertia = " + quantities(m.principal_inertia, "mg*mm^2") + "\n";
+}
+
+std::string compared_text(const char* name, const MassProperties& m) {
+    return std::string(name) + " = { volume = " + quantity(m.volume, "mm^3") + ", mass = " + quantity(m.mass, "mg") +
+           ", centre = " + quantities(m.centre_of_mass_mesh, "mm") + ", principal_inertia = " + quantities(m.principal_inertia, "mg*mm^2") + " }\n";
+}
+
+/// Nothing when nothing is known.
+std::string masses_text(const MassComparison& m) {
+    if (!(m.mesh.volume > 0.0)) return "";
+    return "[masses]  # of the body, of the union of the spheres, and of their sum, which counts overlaps again and again; centre in the frame of the mesh "
+           "file\n"
+           "density = " +
+           quantity(m.mesh.density, "kg/m^3") + "\n" + compared_text("body", m.mesh) + compared_text("union", m.of_union) + compared_text("sum", m.sum) + "\n";
 }
 
 std::string provenance_text(const Provenance& p) {
@@ -93,8 +126,8 @@ std::string spheres_text(const std::vector<Sphere>& spheres) {
 std::string clump_text(const ClumpTemplate& c) {
     return header_text(c) + "format = " + toml_string(clump_format_name) + "\nformat_version = " + std::to_string(clump_format_version) +
            "\nname = " + toml_string(c.rigid.name) + "\nmass_source = " + toml_string(mass_source_name(c.mass_source)) + "\n\n" +
-           spheres_text(c.rigid.spheres) + "\n" + mass_text(c.rigid.mass_properties) + "\n" + quality_text(c.quality) +
-           "\n[mesh]\nfile = " + toml_string(c.mesh_file) + "\nunit = " + toml_string(c.mesh_unit) + "\nsha256 = " + toml_string(c.mesh_hash) + "\n\n" +
+           spheres_text(c.rigid.spheres) + "\n" + mass_text(c.rigid.mass_properties) + "\n" + quality_text(c.quality) + "\n" + masses_text(c.masses) +
+           "[mesh]\nfile = " + toml_string(c.mesh_file) + "\nunit = " + toml_string(c.mesh_unit) + "\nsha256 = " + toml_string(c.mesh_hash) + "\n\n" +
            provenance_text(c.provenance);
 }
 

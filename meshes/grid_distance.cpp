@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -14,7 +15,10 @@ constexpr double rim_share = 0.25;     // of the body's smallest edge, on every 
 constexpr double rim_voxels = 3.0;     // at least
 constexpr double most_voxels = 512e6;  // 2 GiB of floats
 constexpr std::size_t most_samples = 2000000;
-constexpr double safety = 1.5;  // the worst point of a cell need not be its middle
+constexpr std::size_t most_band_samples = 5000;  // the exact query at all of them would take longer than the band itself
+constexpr double band_voxels = 4.0;
+constexpr double safety = 1.5;       // the worst point of a cell need not be its middle
+constexpr double band_safety = 2.0;  // nor is the worst cell of a band among those asked
 
 /// A dense block of distances at the points origin + voxel · (i, j, k).
 class GridDistance final : public SignedDistance {
@@ -33,8 +37,8 @@ private:
         Vec3 outside;  ///< [m], from the box to the point; zero within
     };
     Cell locate(const Vec3& p) const;
+    double interpolate(const Cell& cell) const;
     void fill_exactly(const SignedDistance& exact);
-    double farthest_point(const SignedDistance& exact) const;
     double measure_error(const SignedDistance& exact) const;
     std::size_t points() const { return nx_ * ny_ * nz_; }
     Vec3 point(std::size_t i, std::size_t j, std::size_t k) const {
@@ -44,8 +48,10 @@ private:
     double voxel_ = 0.0, inverse_voxel_ = 0.0;
     Vec3 origin_ = Vec3::Zero();
     GridFill fill_;
-    std::size_t nx_ = 0, ny_ = 0, nz_ = 0;  ///< points along each axis
-    std::vector<float> distance_;           ///< [m], x runs fastest
+    std::size_t nx_ = 0, ny_ = 0, nz_ = 0;                      ///< points along each axis
+    std::vector<float> distance_;                               ///< [m], x runs fastest
+    double trusted_ = std::numeric_limits<double>::infinity();  ///< [m], larger interpolated values are asked of the exact query
+    std::unique_ptr<SignedDistance> exact_;                     ///< kept with OpenVDB's band only
     double error_bound_ = 0.0;
 };
 
@@ -72,12 +78,16 @@ GridDistance::GridDistance(const TriangleMesh& mesh, double voxel, GridFill fill
     nx_ = count[0];
     ny_ = count[1];
     nz_ = count[2];
-    const std::unique_ptr<SignedDistance> exact = exact_signed_distance(mesh);  // also refuses open meshes
-    if (fill == GridFill::exact_query)
-        fill_exactly(*exact);
-    else
-        distance_ = detail::openvdb_distances(mesh, {origin_, voxel_, count}, farthest_point(*exact));
-    error_bound_ = measure_error(*exact);
+    exact_ = exact_signed_distance(mesh);  // also refuses open meshes
+    if (fill == GridFill::exact_query) {
+        fill_exactly(*exact_);
+        error_bound_ = measure_error(*exact_);
+        exact_.reset();
+    } else {
+        distance_ = detail::openvdb_distances(mesh, {origin_, voxel_, count}, band_voxels);
+        trusted_ = (band_voxels - std::sqrt(3.0)) * voxel_;  // then all corners of the cell lie in the band
+        error_bound_ = measure_error(*exact_);
+    }
 }
 
 void GridDistance::fill_exactly(const SignedDistance& exact) {
@@ -86,15 +96,6 @@ void GridDistance::fill_exactly(const SignedDistance& exact) {
         float* out = distance_.data() + row * nx_;
         for (std::size_t i = 0; i < nx_; ++i) out[i] = static_cast<float>(exact.value(point(i, row % ny_, row / ny_)));
     });
-}
-
-double GridDistance::farthest_point(const SignedDistance& exact) const {
-    // Every fourth point along each axis: no other one is more than 3·√3 voxels from one of these, and the distance changes by no more than the way.
-    double farthest = 0.0;
-    for (std::size_t k = 0; k < nz_; k += 4)
-        for (std::size_t j = 0; j < ny_; j += 4)
-            for (std::size_t i = 0; i < nx_; i += 4) farthest = std::max(farthest, exact.value(point(i, j, k)));
-    return farthest + 3.0 * std::sqrt(3.0) * voxel_;
 }
 
 GridDistance::Cell GridDistance::locate(const Vec3& p) const {
@@ -108,7 +109,11 @@ GridDistance::Cell GridDistance::locate(const Vec3& p) const {
 }
 
 double GridDistance::value(const Vec3& p) const {
-    const Cell cell = locate(p);
+    const double interpolated = interpolate(locate(p));
+    return std::abs(interpolated) < trusted_ ? interpolated : exact_->value(p);
+}
+
+double GridDistance::interpolate(const Cell& cell) const {
     const auto along_x = [&](const float* c) { return c[0] + cell.u * (static_cast<double>(c[1]) - c[0]); };
     const std::size_t row = nx_, layer = nx_ * ny_;
     const double a = along_x(cell.corner), b = along_x(cell.corner + row), c = along_x(cell.corner + layer), d = along_x(cell.corner + layer + row);
@@ -127,8 +132,9 @@ DistanceSample GridDistance::sample(const Vec3& p) const {
     const double low_x = d0 + cell.v * (d1 - d0), high_x = d2 + cell.v * (d3 - d2);
     DistanceSample result;
     result.value = low + cell.w * (high - low);
-    result.gradient = Vec3(low_x + cell.w * (high_x - low_x), (b - a) + cell.w * ((d - c) - (b - a)), high - low) * inverse_voxel_;
     const double way = cell.outside.norm();
+    if (!(std::abs(result.value + way) < trusted_)) return exact_->sample(p);
+    result.gradient = Vec3(low_x + cell.w * (high_x - low_x), (b - a) + cell.w * ((d - c) - (b - a)), high - low) * inverse_voxel_;
     if (way > 0.0) {
         // Outside, the grid's value changes only along the axes on which the point was not moved.
         result.value += way;
@@ -140,20 +146,31 @@ DistanceSample GridDistance::sample(const Vec3& p) const {
 
 double GridDistance::measure_error(const SignedDistance& exact) const {
     const std::size_t cells_x = nx_ - 1, cells_y = ny_ - 1, cells = cells_x * cells_y * (nz_ - 1);
-    const std::size_t stride = (cells + most_samples - 1) / most_samples;
+    const bool band = fill_ == GridFill::openvdb;
+    const auto middle_of = [&](std::size_t cell) {
+        return Vec3(point(cell % cells_x, cell / cells_x % cells_y, cell / (cells_x * cells_y)) + Vec3::Constant(0.5 * voxel_));
+    };
+    std::vector<std::size_t> asked;  // cells of the band; without one, all
+    if (band) {
+        for (std::size_t cell = 0; cell < cells; ++cell) {
+            const std::size_t corner = (cell / (cells_x * cells_y) * ny_ + cell / cells_x % cells_y) * nx_ + cell % cells_x;
+            if (std::abs(distance_[corner]) < trusted_) asked.push_back(cell);
+        }
+    }
+    const std::size_t total = band ? asked.size() : cells, limit = band ? most_band_samples : most_samples;
+    const std::size_t stride = std::max<std::size_t>(1, (total + limit - 1) / limit);
     struct Largest {
         double at_point = 0.0, in_middle = 0.0;
     };
-    const Largest largest = parallel_reduce((cells + stride - 1) / stride, 1024, Largest{},
+    const Largest largest = parallel_reduce((total + stride - 1) / stride, 1024, Largest{},
                                             [&](std::size_t begin, std::size_t end) {
                                                 Largest most;
                                                 for (std::size_t s = begin; s < end; ++s) {
-                                                    const std::size_t cell = s * stride, i = cell % cells_x, j = cell / cells_x % cells_y,
-                                                                      k = cell / (cells_x * cells_y);
-                                                    const Vec3 corner = point(i, j, k), middle = corner + Vec3::Constant(0.5 * voxel_);
+                                                    const Vec3 middle = middle_of(band ? asked[s * stride] : s * stride);
                                                     most.in_middle = std::max(most.in_middle, std::abs(value(middle) - exact.value(middle)));
-                                                    if (fill_ == GridFill::openvdb)
-                                                        most.at_point = std::max(most.at_point, std::abs(value(corner) - exact.value(corner)));
+                                                    if (!band) continue;
+                                                    const Vec3 corner = middle - Vec3::Constant(0.5 * voxel_);
+                                                    most.at_point = std::max(most.at_point, std::abs(value(corner) - exact.value(corner)));
                                                 }
                                                 return most;
                                             },
@@ -164,7 +181,8 @@ double GridDistance::measure_error(const SignedDistance& exact) const {
     // A distance changes by at most the way gone, and Σ w_i |x_i − p| over the eight corners is at most √3/2 voxels: no interpolation of exact corners errs
     // more.
     const double interpolation_limit = 0.5 * std::sqrt(3.0) * voxel_;
-    return std::min(safety * std::max(largest.in_middle, largest.at_point), interpolation_limit + safety * largest.at_point) + rounding;
+    const double factor = band ? band_safety : safety;
+    return std::min(factor * std::max(largest.in_middle, largest.at_point), interpolation_limit + factor * largest.at_point) + rounding;
 }
 
 }  // namespace

@@ -62,6 +62,15 @@ TriangleMesh make_pellet(const Capsule& body, std::uint32_t facets, bool volume_
 TriangleMesh make_pellet(const HollowCylinder& body, std::uint32_t facets, bool volume_exact = false);
 TriangleMesh make_pellet(const LobedExtrudate& body, std::uint32_t facets, bool volume_exact = false);
 
+/// Closed non-convex body as a scanner would give it: a lump with a head, two ears and a hollow back, roughened at two scales; star-shaped about the origin.
+/// `subdivisions` as in make_sphere (5: 20480 triangles). Deterministic for a seed.
+struct ScanLike {
+    double size = 4.0e-3;      ///< about the longest extent
+    double roughness = 0.015;  ///< rms height of the small bumps / size
+    std::uint64_t seed = 1;
+};
+TriangleMesh make_scan_like(const ScanLike& body, std::uint32_t subdivisions);
+
 /// Volume of the true body [m³], in closed form.
 double exact_volume(const RoundedCylinder& body);
 double exact_volume(const BevelledCylinder& body);

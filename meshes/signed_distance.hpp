@@ -39,17 +39,18 @@ std::unique_ptr<SignedDistance> exact_signed_distance(const TriangleMesh& mesh);
 /// Throws Error(bad_input) for a mesh without triangles or with triangles without area.
 std::unique_ptr<SignedDistance> winding_signed_distance(const TriangleMesh& mesh);
 
-/// Who computes the distances at the points of a grid. Both fill the whole interior and the rim.
+/// Who computes the distances at the points of a grid.
 enum class GridFill {
-    exact_query,  ///< the exact query at each point: faster here, and exact at the points
-    openvdb       ///< OpenVDB's mesh to level set conversion: off by 0.15 voxels next to the surface, by more than 1 voxel deep inside, and 5 times slower
+    exact_query,  ///< the exact query at each point, in the whole interior and the rim
+    openvdb       ///< OpenVDB's mesh to level set conversion, in a band of 4 voxels on both sides of the surface; farther away the exact query answers itself
 };
 
 /// Distances on a regular grid of the given voxel size, trilinear between its points, kept as one dense block of floats. Fast, for searching.
 /// The grid covers the body's bounding box and a rim of max(0.25 · its smallest edge, 3 voxels) and is centred on the body. Beyond it the value is that of the
 /// nearest point of the grid's box plus the way to it, an upper bound of the distance.
-/// The error bound is measured against the exact query when the grid is built, at the middles of all cells (of every n-th above two million): 1.5 × the
-/// largest error found, but at most √3/2 voxels, which no interpolated distance exceeds when it is exact at the points. It holds inside the grid's box.
+/// The error bound is measured against the exact query when the grid is built, at the middles of all cells (of every n-th above two million; of OpenVDB's
+/// band at middles and corners, every n-th above five thousand): 1.5 × (the band: 2 ×) the largest error found, but at most √3/2 voxels, which no interpolated
+/// distance exceeds when it is exact at the points. It holds inside the grid's box.
 /// Throws Error(bad_input) for a voxel that is not positive, wider than a quarter of the body's smallest extent, or so small that more than 512 million are
 /// needed, and for a mesh that exact_signed_distance refuses.
 std::unique_ptr<SignedDistance> grid_signed_distance(const TriangleMesh& mesh, double voxel_size, GridFill fill = GridFill::exact_query);

@@ -209,7 +209,7 @@ FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& se
 
     tell("moving spheres to better places");
     RelocationSettings relocation;
-    relocation.trials = static_cast<std::uint32_t>(settings.effort * std::clamp(2.0 * static_cast<double>(n), 60.0, 800.0));
+    relocation.trials = static_cast<std::uint32_t>(settings.effort * std::clamp(1.2 * static_cast<double>(n), 40.0, 500.0));
     relocation.seed = settings.seed;
     relocation.min_radius = min_radius;
     relocation.largest_radius = seeds.largest_radius;

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <memory>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "meshes/mass_properties.hpp"
@@ -37,13 +36,18 @@ MadeClump judged_clump(std::span<const Sphere> spheres_mesh, const TriangleMesh&
     MadeClump made;
     made.fit.spheres.assign(spheres_mesh.begin(), spheres_mesh.end());
     made.clump.quality = measure_quality(spheres_mesh, body, exact);
-    if (settings.measure_surface) made.surface = measure_surface(spheres_mesh, body, exact);
-    made.mesh_mass = meshes::mass_properties(body, settings.density);
-    made.union_mass = union_mass_properties(spheres_mesh, settings.density);
-    for (const Sphere& s : spheres_mesh) made.sum_volume += 4.0 / 3.0 * std::numbers::pi * s.radius * s.radius * s.radius;
+    if (settings.measure_surface) {
+        made.surface = measure_surface(spheres_mesh, body, exact);
+        made.clump.quality.surface = made.surface;
+    }
+    MassComparison& masses = made.clump.masses;
+    masses = {meshes::mass_properties(body, settings.density), union_mass_properties(spheres_mesh, settings.density),
+              sum_mass_properties(spheres_mesh, settings.density)};
+    made.mesh_mass = masses.mesh;
+    made.union_mass = masses.of_union;
     made.clump.mass_source = settings.mass_source;
-    made.clump.rigid = rigid_template("clump", spheres_mesh, chosen_mass(settings.mass_source, made.mesh_mass, made.union_mass));
-    made.cost = dem_cost(rigid_template("", spheres_mesh, made.mesh_mass).spheres, made.mesh_mass, settings.cost);
+    made.clump.rigid = rigid_template("clump", spheres_mesh, chosen_mass(settings.mass_source, masses.mesh, masses.of_union));
+    made.cost = dem_cost(rigid_template("", spheres_mesh, masses.mesh).spheres, masses.mesh, settings.cost);
     made.relative_cost = made.cost.cost / dem_cost_of_shape_2(settings.density, settings.cost).cost;
     return made;
 }

@@ -36,11 +36,10 @@ struct MadeClump {
     FitResult fit;          ///< spheres in the mesh frame
     SurfaceReport surface;  ///< roughness, normals, edges, plane contacts
     DemCost cost;
-    double relative_cost = 0.0;            ///< / that of the study's Shape 2 at the same density
-    double search_error = 0.0;             ///< [m], bound of the error of the distance that the search used
-    std::uint32_t attempts = 1;            ///< fits made to meet a criterion
-    MassProperties mesh_mass, union_mass;  ///< of the target mesh and of the union, beside the exported clump.rigid.mass_properties
-    double sum_volume = 0.0;               ///< [m³], of all spheres, overlaps counted as often as they occur: for comparison only
+    double relative_cost = 0.0;  ///< / that of the study's Shape 2 at the same density
+    double search_error = 0.0;   ///< [m], bound of the error of the distance that the search used
+    MassProperties mesh_mass, union_mass;  ///< = clump.masses.mesh and of_union
+    std::uint32_t attempts = 1;  ///< fits made to meet a criterion
     ClumpTimes times;
 };
 

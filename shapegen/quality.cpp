@@ -37,6 +37,7 @@ DistanceFigures figures(const Distances& distances) {
     for (std::size_t i = 0; i < distances.value.size(); ++i) {
         const double d = std::abs(distances.value[i]), w = distances.weight[i] / total;
         result.mean += w * d;
+        result.signed_mean += w * distances.value[i];
         squares += w * d * d;
         sorted.emplace_back(d, w);
     }
@@ -129,7 +130,9 @@ FitQuality measure_quality(std::span<const Sphere> spheres, const TriangleMesh& 
     quality.inertia_error = ascending(clump.principal_inertia).cwiseQuotient(ascending(target.principal_inertia)) - Vec3::Ones();
     quality.centre_offset = (clump.centre_of_mass_mesh - target.centre_of_mass_mesh).norm();
     const detail::OverlapVolumes overlap = detail::column_overlap(body, spheres, overlap_columns);
-    quality.symmetric_difference = (overlap.missing + overlap.outside) / target.volume;
+    quality.missing = overlap.missing / target.volume;
+    quality.outside = overlap.outside / target.volume;
+    quality.symmetric_difference = quality.missing + quality.outside;
 
     const std::vector<detail::ExposedPart> boundary = detail::union_boundary(spheres);
     const detail::OuterSurface outer(spheres);
@@ -138,6 +141,7 @@ FitQuality measure_quality(std::span<const Sphere> spheres, const TriangleMesh& 
     quality.target_to_union = figures(forth);
     quality.union_to_target = figures(back);
     quality.both = together(forth, back);
+    quality.both.signed_mean = 0.5 * (quality.union_to_target.signed_mean - quality.target_to_union.signed_mean);
     quality.distance_error_bound = exact.error_bound();
     return quality;
 }

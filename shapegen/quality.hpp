@@ -1,4 +1,4 @@
-// How well a union of spheres reproduces a body: definitions of ../docs/shape-quality.md, figures by the exact distance query.
+// How well a union of spheres reproduces a body: definitions of ../docs/quality.md, figures by the exact distance query.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace pelletlab::shapegen {
 
-/// All in the frame of the mesh. `exact` is the exact distance of `body`.
+/// All in the frame of the mesh. `exact` is the exact distance of `body`. The figures of the surface (surface_report.hpp) are left open.
 FitQuality measure_quality(std::span<const Sphere> spheres, const TriangleMesh& body, const meshes::SignedDistance& exact);
 
 }  // namespace pelletlab::shapegen

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
 #include <string>
 
 #include "core/error.hpp"
@@ -44,7 +47,7 @@ bool meets(const StoppedFit& made, const StopCriteria& criteria, const TriangleM
 }
 
 StoppedFit attempt(const TriangleMesh& body, const meshes::SignedDistance& search, const meshes::SignedDistance& exact, const FitSettings& settings,
-                   std::uint32_t spheres, const ProgressSink& progress) {
+                   std::uint32_t spheres, const ProgressSink& progress, bool judge = true) {
     StoppedFit made;
     FitSettings with = settings;
     with.sphere_count = spheres;
@@ -53,7 +56,7 @@ StoppedFit attempt(const TriangleMesh& body, const meshes::SignedDistance& searc
         while (with.sphere_count < most_spheres && !group.can_hold(with.sphere_count)) ++with.sphere_count;
     }
     made.fit = fit_spheres(body, search, exact, with, progress);
-    made.quality = measure_quality(made.fit.spheres, body, exact);
+    if (judge) made.quality = measure_quality(made.fit.spheres, body, exact);
     return made;
 }
 
@@ -88,23 +91,17 @@ StoppedFit fit_to_criteria(const TriangleMesh& body, const meshes::SignedDistanc
     return best;
 }
 
-StoppedFit fit_within_cost(const TriangleMesh& body, const meshes::SignedDistance& search, const meshes::SignedDistance& exact, const FitSettings& settings,
-                           double density, double most_cost, const DemCostSettings& cost, const ProgressSink& progress) {
-    if (!(most_cost > 0.0)) throw usage_error("the DEM cost allowed is not positive", "give it in costs of the study's Shape 2, for instance 2");
-    const MassProperties mass = meshes::mass_properties(body, density);
-    const double allowed = most_cost * dem_cost_of_shape_2(density, cost).cost;
-    const auto affordable = [&](const StoppedFit& made) { return dem_cost(rigid_template("", made.fit.spheres, mass).spheres, mass, cost).cost <= allowed; };
-    StoppedFit best = attempt(body, search, exact, settings, 1, progress);
-    std::uint32_t attempts = 1, good = 1, bad = most_spheres + 1;
-    if (!affordable(best)) {
-        best.fit.status = FitStatus::criterion_not_met;
-        best.attempts = attempts;
-        return best;
-    }
+namespace {
+
+// The most spheres that are affordable, `from` being a number to begin with. Nothing when not even that many are.
+std::optional<StoppedFit> most_affordable(const std::function<StoppedFit(std::uint32_t)>& make, const std::function<bool(const StoppedFit&)>& affordable,
+                                          std::uint32_t from) {
+    StoppedFit best = make(from);
+    if (!affordable(best)) return std::nullopt;
+    std::uint32_t good = from, bad = most_spheres + 1;
     while (bad - good > 1) {
         const std::uint32_t next = bad > most_spheres ? std::min(2 * good, most_spheres) : good + (bad - good) / 2;
-        StoppedFit made = attempt(body, search, exact, settings, next, progress);
-        ++attempts;
+        StoppedFit made = make(next);
         if (affordable(made)) {
             good = next;
             best = std::move(made);
@@ -112,8 +109,43 @@ StoppedFit fit_within_cost(const TriangleMesh& body, const meshes::SignedDistanc
             bad = next;
         }
     }
-    best.attempts = attempts;
     return best;
+}
+
+}  // namespace
+
+StoppedFit fit_within_cost(const TriangleMesh& body, const meshes::SignedDistance& search, const meshes::SignedDistance& exact, const FitSettings& settings,
+                           double density, double most_cost, const DemCostSettings& cost, const ProgressSink& progress) {
+    if (!(most_cost > 0.0)) throw usage_error("the DEM cost allowed is not positive", "give it in costs of the study's Shape 2, for instance 2");
+    const MassProperties mass = meshes::mass_properties(body, density);
+    const double allowed = most_cost * dem_cost_of_shape_2(density, cost).cost;
+    std::uint32_t attempts = 0;
+    const auto affordable = [&](const StoppedFit& made) { return dem_cost(rigid_template("", made.fit.spheres, mass).spheres, mass, cost).cost <= allowed; };
+    FitSettings with = settings;
+    const auto make = [&](std::uint32_t spheres) {
+        ++attempts;
+        return attempt(body, search, exact, with, spheres, progress, false);
+    };
+    const auto judge = [&](std::optional<StoppedFit> made) {
+        if (made) made->quality = measure_quality(made->fit.spheres, body, exact);
+        return made;
+    };
+    std::optional<StoppedFit> best = judge(most_affordable(make, affordable, 1));
+    if (!best) {
+        best = attempt(body, search, exact, settings, 1, progress);
+        best->fit.status = FitStatus::criterion_not_met;
+    } else if (settings.most_contacts == 0 && settings.mode != FitMode::outside && settings.mode != FitMode::flat &&
+               settings.symmetry_choice == SymmetryChoice::none) {
+        // Spheres side by side on a face make it stiff and the time step short: fewer contacts there may buy more spheres than they cost in accuracy.
+        if (with.press == 0.0) with.press = cost.press > 0.0 ? cost.press : std::cbrt(6.0 * mass.volume / std::numbers::pi) / 300.0;
+        for (const std::uint32_t contacts : {6u, 3u}) {
+            with.most_contacts = contacts;
+            std::optional<StoppedFit> other = judge(most_affordable(make, affordable, static_cast<std::uint32_t>(best->fit.spheres.size())));
+            if (other && other->fit.status != FitStatus::limit_not_met && other->quality.both.rms < best->quality.both.rms) best = std::move(other);
+        }
+    }
+    best->attempts = attempts;
+    return *best;
 }
 
 }  // namespace pelletlab::shapegen

@@ -34,8 +34,9 @@ struct StoppedFit {
 StoppedFit fit_to_criteria(const TriangleMesh& body, const meshes::SignedDistance& search, const meshes::SignedDistance& exact, const FitSettings& settings,
                            const StopCriteria& criteria, const ProgressSink& progress = {});
 
-/// The most spheres whose cost (dem_cost, with the body's mass at `density`) is at most `most_cost` × that of the study's Shape 2 of the same density, found by
-/// the same kind of search; more spheres are always more accurate. settings.sphere_count is not used.
+/// The most accurate clump (rms) whose cost (dem_cost, with the body's mass at `density`) is at most `most_cost` × that of the study's Shape 2 of the same
+/// density: the most spheres that the cost allows, as they come and with 6 or 3 plane contacts at most, which lengthens the time step. A limit of contacts or a
+/// symmetry that is asked for stays as it is. settings.sphere_count is not used.
 StoppedFit fit_within_cost(const TriangleMesh& body, const meshes::SignedDistance& search, const meshes::SignedDistance& exact, const FitSettings& settings,
                            double density, double most_cost, const DemCostSettings& cost, const ProgressSink& progress = {});
 

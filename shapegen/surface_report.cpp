@@ -20,7 +20,8 @@ namespace pelletlab::shapegen {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t height_points = 40000;
+constexpr std::size_t height_points = 20000;
+constexpr double normal_points = 10000.0;
 constexpr std::size_t directions = 4000;
 
 Vec3 fibonacci(std::size_t k, std::size_t n) {
@@ -53,10 +54,19 @@ double height(std::span<const Sphere> spheres, const Vec3& p, const Vec3& n, dou
 void measure_roughness(std::span<const Sphere> spheres, const TriangleMesh& body, const detail::SmoothPatches& patches, double band, SurfaceReport& report) {
     const detail::SurfaceSamples samples = detail::sample_surface(body, height_points, 2);
     std::vector<double> heights(samples.points.size(), nothing);
+    struct Ball {  // around an edge and its band: most points are in none
+        Vec3 middle;
+        double squared;
+    };
+    std::vector<Ball> around;
+    for (const detail::SharpEdge& edge : patches.edges) {
+        const double reach = 0.5 * (edge.b - edge.a).norm() + band;
+        around.push_back({0.5 * (edge.a + edge.b), reach * reach});
+    }
     parallel_for(samples.points.size(), 256, [&](std::size_t i) {
         const Vec3& p = samples.points[i];
-        for (const detail::SharpEdge& edge : patches.edges) {
-            if (distance_to_segment(p, edge.a, edge.b) < band) return;
+        for (std::size_t e = 0; e < around.size(); ++e) {
+            if ((p - around[e].middle).squaredNorm() < around[e].squared && distance_to_segment(p, patches.edges[e].a, patches.edges[e].b) < band) return;
         }
         heights[i] = height(spheres, p, samples.normals[i], 2.0 * band);
     });
@@ -81,6 +91,7 @@ void measure_roughness(std::span<const Sphere> spheres, const TriangleMesh& body
         patch.area += area.norm();
     }
     double flat = 0.0, flat_n = 0.0, curved = 0.0, curved_n = 0.0;
+    report.flat_sz = report.curved_sz = 0.0;
     for (std::size_t k = 0; k < patches.count; ++k) {
         PatchRoughness& patch = report.patches[k];
         patch.mean_normal /= patch.area;
@@ -96,8 +107,10 @@ void measure_roughness(std::span<const Sphere> spheres, const TriangleMesh& body
         double& worst = is_flat ? report.flat_sz : report.curved_sz;
         worst = std::max(worst, patch.sz);
     }
-    report.flat_sq = flat_n > 0.0 ? std::sqrt(flat / flat_n) : 0.0;
-    report.curved_sq = curved_n > 0.0 ? std::sqrt(curved / curved_n) : 0.0;
+    report.flat_sq = flat_n > 0.0 ? std::sqrt(flat / flat_n) : nothing;
+    report.curved_sq = curved_n > 0.0 ? std::sqrt(curved / curved_n) : nothing;
+    if (flat_n == 0.0) report.flat_sz = nothing;
+    if (curved_n == 0.0) report.curved_sz = nothing;
     std::stable_sort(report.patches.begin(), report.patches.end(), [](const PatchRoughness& a, const PatchRoughness& b) { return a.area > b.area; });
 }
 
@@ -105,13 +118,14 @@ void measure_normals(std::span<const Sphere> spheres, std::span<const detail::Ex
                      const meshes::SignedDistance& exact, SurfaceReport& report) {
     double area = 0.0;
     for (std::size_t i = 0; i < spheres.size(); ++i) area += boundary[i].solid_angle * spheres[i].radius * spheres[i].radius;
-    const detail::UnionSamples samples = detail::sample_union(spheres, boundary, outer, std::sqrt(area / 20000.0));
+    const detail::UnionSamples samples = detail::sample_union(spheres, boundary, outer, std::sqrt(area / normal_points));
     std::vector<std::pair<double, double>> angles(samples.points.size());
     parallel_for(samples.points.size(), 256, [&](std::size_t i) {
         const double cosine = std::clamp(samples.normals[i].dot(exact.gradient(samples.points[i])), -1.0, 1.0);
         angles[i] = {std::acos(cosine), samples.areas[i]};
     });
     double total = 0.0, squares = 0.0;
+    report.normal_mean = 0.0;
     for (const auto& [angle, weight] : angles) {
         total += weight;
         report.normal_mean += weight * angle;
@@ -178,6 +192,7 @@ void measure_planes(std::span<const Sphere> spheres, const TriangleMesh& body, S
         rows[k].error = of_union - of_body;
     });
     double squares = 0.0;
+    report.support_mean = report.support_max = report.contacts_any_way = 0.0;
     for (const Row& row : rows) {
         report.support_mean += row.error / static_cast<double>(directions);
         squares += row.error * row.error / static_cast<double>(directions);
@@ -235,6 +250,7 @@ SurfaceReport measure_surface(std::span<const Sphere> spheres, const TriangleMes
     report.press = settings.press > 0.0 ? settings.press : extent / 300.0;
     measure_planes(spheres, body, report);
     report.smallest_radius = std::numeric_limits<double>::infinity();
+    report.largest_radius = 0.0;
     for (const Sphere& s : spheres) {
         report.smallest_radius = std::min(report.smallest_radius, s.radius);
         report.largest_radius = std::max(report.largest_radius, s.radius);

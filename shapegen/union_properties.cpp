@@ -3,6 +3,7 @@
 #include "shapegen/union_properties.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "shapegen/detail/union_boundary.hpp"
@@ -68,6 +69,28 @@ MassProperties union_mass_properties(std::span<const Sphere> spheres, double den
     const Vec3 centre = moments.first / moments.volume;
     mass.centre_of_mass_mesh = origin + centre;
     const Mat3 spread = moments.second - moments.volume * centre * centre.transpose();
+    principal_axes(density * (spread.trace() * Mat3::Identity() - spread), mass.principal_axes, mass.principal_inertia);
+    return mass;
+}
+
+MassProperties sum_mass_properties(std::span<const Sphere> spheres, double density) {
+    if (spheres.empty()) throw bad_input("a sum of no spheres has no mass", "give at least one sphere");
+    const Vec3 origin = middle_of(spheres);
+    MassProperties mass;
+    Vec3 first = Vec3::Zero();
+    Mat3 second = Mat3::Zero();  // ∫ x xᵀ dV; of a ball about its centre V r²/5
+    for (const Sphere& sphere : spheres) {
+        const double volume = 4.0 / 3.0 * std::numbers::pi * sphere.radius * sphere.radius * sphere.radius;
+        const Vec3 c = sphere.centre - origin;
+        mass.volume += volume;
+        first += volume * c;
+        second += volume * (c * c.transpose() + 0.2 * sphere.radius * sphere.radius * Mat3::Identity());
+    }
+    mass.density = density;
+    mass.mass = density * mass.volume;
+    const Vec3 centre = first / mass.volume;
+    mass.centre_of_mass_mesh = origin + centre;
+    const Mat3 spread = second - mass.volume * centre * centre.transpose();
     principal_axes(density * (spread.trace() * Mat3::Identity() - spread), mass.principal_axes, mass.principal_inertia);
     return mass;
 }

@@ -11,4 +11,7 @@ namespace pelletlab::shapegen {
 MassProperties union_mass_properties(std::span<const Sphere> spheres, double density);
 double union_volume(std::span<const Sphere> spheres);
 
+/// Plain sum over the spheres: overlaps count as often as they occur. What programs compute that know nothing of overlaps; for comparison only.
+MassProperties sum_mass_properties(std::span<const Sphere> spheres, double density);
+
 }  // namespace pelletlab::shapegen

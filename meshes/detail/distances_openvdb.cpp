@@ -1,8 +1,6 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
 
-#include <limits>
-
 #include "core/parallel.hpp"
 #include "meshes/detail/openvdb_distances.hpp"
 
@@ -24,13 +22,13 @@ struct IndexSpaceMesh {
 
 }  // namespace
 
-std::vector<float> openvdb_distances(const TriangleMesh& mesh, const Block& block, double farthest) {
+std::vector<float> openvdb_distances(const TriangleMesh& mesh, const Block& block, double band_voxels) {
     openvdb::initialize();
     const auto transform = openvdb::math::Transform::createLinearTransform(block.voxel);
-    // The outer band reaches the farthest point of the block, the inner one fills the body: no point is left with the background value.
-    const auto exterior = static_cast<float>(farthest / block.voxel + 1.0);
+    // Renormalisation would smooth the distances of a clean mesh, too, by 0.15 voxels.
+    const auto band = static_cast<float>(band_voxels);
     const openvdb::FloatGrid::Ptr grid =
-        openvdb::tools::meshToVolume<openvdb::FloatGrid>(IndexSpaceMesh{mesh, block}, *transform, exterior, std::numeric_limits<float>::max());
+        openvdb::tools::meshToVolume<openvdb::FloatGrid>(IndexSpaceMesh{mesh, block}, *transform, band, band, openvdb::tools::DISABLE_RENORMALIZATION);
     const std::size_t nx = block.count[0], ny = block.count[1], nz = block.count[2];
     std::vector<float> distances(nx * ny * nz);
     parallel_for(nz, 1, [&](std::size_t k) {

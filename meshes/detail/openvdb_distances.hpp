@@ -15,8 +15,8 @@ struct Block {
     std::array<std::size_t, 3> count{};
 };
 
-/// Signed distances [m], first index fastest; no point of the block is farther outside the body than `farthest` [m]. OpenVDB is exact to float rounding next to
-/// the surface only: farther away it passes the nearest triangle on from voxel to voxel and errs by up to about one voxel.
-std::vector<float> openvdb_distances(const TriangleMesh& mesh, const Block& block, double farthest);
+/// Signed distances [m], first index fastest, within `band_voxels` on both sides of the surface; beyond it ± the width of the band. OpenVDB is exact to float
+/// rounding next to the surface; farther away it passes the nearest triangle on from voxel to voxel and may miss a nearer one.
+std::vector<float> openvdb_distances(const TriangleMesh& mesh, const Block& block, double band_voxels);
 
 }  // namespace pelletlab::meshes::detail

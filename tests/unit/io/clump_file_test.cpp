@@ -39,9 +39,31 @@ ClumpTemplate random_clump(std::uint64_t stream) {
     c.quality.inertia_error = {random.normal(), random.normal(), random.normal()};
     c.quality.centre_offset = 1e-300;
     c.quality.symmetric_difference = random.uniform();
-    c.quality.target_to_union = {length(), length(), length(), length()};
-    c.quality.union_to_target = {length(), length(), length(), length()};
-    c.quality.both = {length(), length(), length(), length()};
+    c.quality.missing = random.uniform();
+    c.quality.outside = random.uniform();
+    c.quality.target_to_union = {length(), length(), length(), length(), length()};
+    c.quality.union_to_target = {length(), length(), length(), length(), length()};
+    c.quality.both = {length(), length(), length(), length(), length()};
+    SurfaceFigures& f = c.quality.surface;
+    for (double* value : {&f.flat_sq, &f.flat_sz, &f.curved_sq, &f.curved_sz, &f.edge_gap_mean, &f.edge_gap_max, &f.edge_radius_mean, &f.edge_radius_max,
+                          &f.support_mean, &f.support_rms, &f.support_max, &f.press, &f.smallest_radius, &f.largest_radius})
+        *value = length();
+    f.normal_mean = 0.3;
+    f.normal_rms = 0.4;
+    f.normal_p95 = 0.5;
+    f.contacts_on_flat = 16.5;
+    f.most_on_flat = 17;
+    f.contacts_any_way = 2.25;
+    f.most_any_way = 18;
+    f.components = 1;
+    f.sealed_volume = 1e-13;
+    for (MassProperties* m : {&c.masses.mesh, &c.masses.of_union, &c.masses.sum}) {
+        m->density = 1800.0;
+        m->volume = random.uniform(1e-8, 3e-8);
+        m->mass = m->density * m->volume;
+        m->centre_of_mass_mesh = {length(), length(), length()};
+        m->principal_inertia = Vec3(1.0, 1.5, 2.0) * 1e-11;
+    }
     c.quality.distance_error_bound = 5e-324;
     c.mesh_file = "a folder/pellet \\ 1.stl";
     c.mesh_unit = "mm";
@@ -55,6 +77,42 @@ void expect_same(const DistanceFigures& a, const DistanceFigures& b) {
     EXPECT_EQ(bits(a.rms), bits(b.rms));
     EXPECT_EQ(bits(a.max), bits(b.max));
     EXPECT_EQ(bits(a.p99), bits(b.p99));
+    EXPECT_EQ(bits(a.signed_mean), bits(b.signed_mean));
+}
+
+void expect_same(const SurfaceFigures& a, const SurfaceFigures& b) {
+    const double lengths[][2] = {{a.flat_sq, b.flat_sq},
+                                 {a.flat_sz, b.flat_sz},
+                                 {a.curved_sq, b.curved_sq},
+                                 {a.curved_sz, b.curved_sz},
+                                 {a.edge_gap_mean, b.edge_gap_mean},
+                                 {a.edge_gap_max, b.edge_gap_max},
+                                 {a.edge_radius_mean, b.edge_radius_mean},
+                                 {a.edge_radius_max, b.edge_radius_max},
+                                 {a.support_mean, b.support_mean},
+                                 {a.support_rms, b.support_rms},
+                                 {a.support_max, b.support_max},
+                                 {a.press, b.press},
+                                 {a.smallest_radius, b.smallest_radius},
+                                 {a.largest_radius, b.largest_radius},
+                                 {a.normal_mean, b.normal_mean},
+                                 {a.normal_rms, b.normal_rms},
+                                 {a.normal_p95, b.normal_p95},
+                                 {a.contacts_on_flat, b.contacts_on_flat},
+                                 {a.contacts_any_way, b.contacts_any_way},
+                                 {a.sealed_volume, b.sealed_volume}};
+    for (const auto& [mine, theirs] : lengths) EXPECT_EQ(bits(mine), bits(theirs));
+    EXPECT_EQ(a.most_on_flat, b.most_on_flat);
+    EXPECT_EQ(a.most_any_way, b.most_any_way);
+    EXPECT_EQ(a.components, b.components);
+}
+
+void expect_same(const MassProperties& a, const MassProperties& b) {
+    EXPECT_EQ(bits(a.density), bits(b.density));
+    EXPECT_EQ(bits(a.volume), bits(b.volume));
+    EXPECT_EQ(bits(a.mass), bits(b.mass));
+    EXPECT_TRUE(same_bits(a.centre_of_mass_mesh, b.centre_of_mass_mesh));
+    EXPECT_TRUE(same_bits(a.principal_inertia, b.principal_inertia));
 }
 
 void expect_same(const ClumpTemplate& a, const ClumpTemplate& b) {
@@ -77,6 +135,12 @@ void expect_same(const ClumpTemplate& a, const ClumpTemplate& b) {
     EXPECT_TRUE(same_bits(a.quality.inertia_error, b.quality.inertia_error));
     EXPECT_EQ(bits(a.quality.centre_offset), bits(b.quality.centre_offset));
     EXPECT_EQ(bits(a.quality.symmetric_difference), bits(b.quality.symmetric_difference));
+    EXPECT_EQ(bits(a.quality.missing), bits(b.quality.missing));
+    EXPECT_EQ(bits(a.quality.outside), bits(b.quality.outside));
+    expect_same(a.quality.surface, b.quality.surface);
+    expect_same(a.masses.mesh, b.masses.mesh);
+    expect_same(a.masses.of_union, b.masses.of_union);
+    expect_same(a.masses.sum, b.masses.sum);
     expect_same(a.quality.target_to_union, b.quality.target_to_union);
     expect_same(a.quality.union_to_target, b.quality.union_to_target);
     expect_same(a.quality.both, b.quality.both);
@@ -144,6 +208,23 @@ TEST(ClumpFile, UnknownQualityStaysUnknown) {
     EXPECT_TRUE(std::isnan(back.quality.volume_error));
     EXPECT_TRUE(std::isnan(back.quality.both.max));
     EXPECT_EQ(back.quality.both.mean, clump.quality.both.mean);
+}
+
+TEST(ClumpFile, FilesOfEarlierVersionsHaveNoSurface) {
+    std::string text = io::clump_text(random_clump(3));
+    const auto cut = [&text](const std::string& from, const std::string& to) {
+        const auto begin = text.find(from);
+        ASSERT_NE(begin, std::string::npos) << from;
+        text.erase(begin, text.find(to, begin) - begin);
+    };
+    cut("[quality.surface]", "[masses]");
+    cut("[masses]", "[mesh]");
+    cut("missing = ", "body_to_union");
+    const ClumpTemplate old = io::parse_clump(text, "a");
+    EXPECT_TRUE(std::isnan(old.quality.surface.flat_sq));
+    EXPECT_TRUE(std::isnan(old.quality.missing));
+    EXPECT_EQ(old.masses.mesh.volume, 0.0);
+    EXPECT_EQ(old.rigid.spheres.size(), 82u);
 }
 
 TEST(ClumpFile, ImpossibleClumpIsNotWritten) {
