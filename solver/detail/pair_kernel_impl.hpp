@@ -247,6 +247,7 @@ void pair_forces(ContactKernel contact, const LawRow& law, const PairBlockView& 
         collect_contacts<S, sticky>(block, s, k, b, s.active_count, keep_history, law.reach);
         if (b.size == before) continue;
         block.touching[k] = 1;
+        __builtin_prefetch(block.loads_j + k, 1);
         s.active[s.active_count] = static_cast<std::uint32_t>(k);
         s.first_contact[++s.active_count] = static_cast<std::uint32_t>(b.size);
     }
