@@ -139,6 +139,26 @@ Symmetry chosen_symmetry(const TriangleMesh& mesh, const meshes::SignedDistance&
     return symmetry;
 }
 
+// Rings of a body of revolution: the fold that symmetry_for() proposes and the nearest others that leave little over for the axis. Which one is best, a fit
+// tells.
+std::vector<Symmetry> ring_symmetries(const FoundSymmetry& found, std::uint32_t spheres) {
+    const Symmetry proposed = symmetry_for(found, spheres);
+    std::vector<std::pair<double, std::uint32_t>> order;
+    for (std::uint32_t fold = 2; fold <= std::min<std::uint32_t>(32, std::max<std::uint32_t>(2, spheres)); ++fold) {
+        const double misfit = std::abs(std::log(static_cast<double>(fold) / proposed.fold));
+        if (fold == proposed.fold || (spheres % fold <= 2 && misfit < 0.8)) order.emplace_back(misfit, fold);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<Symmetry> result;
+    for (const auto& [misfit, fold] : order) {
+        Symmetry candidate = proposed;
+        candidate.fold = fold;
+        if (SymmetryGroup::of(candidate).can_hold(spheres)) result.push_back(std::move(candidate));
+        if (result.size() == 5) break;
+    }
+    return result;
+}
+
 class Clock {
 public:
     double lap() {
@@ -162,6 +182,22 @@ FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& se
     Clock clock;
     const Body body = unit_body(mesh);
     check(settings, body);
+    if (settings.symmetry_choice == SymmetryChoice::own) {
+        const FoundSymmetry found = find_symmetry(mesh, exact);
+        const std::vector<Symmetry> rings = found.revolution ? ring_symmetries(found, settings.sphere_count) : std::vector<Symmetry>{};
+        FitResult best;
+        FitTimes times;
+        for (const Symmetry& symmetry : rings) {
+            FitSettings with = settings;
+            with.symmetry_choice = SymmetryChoice::given;
+            with.symmetry = symmetry;
+            FitResult one = fit_spheres(mesh, search, exact, with, progress);
+            times = {times.seeds + one.times.seeds, times.search + one.times.search, times.finish + one.times.finish};
+            if (best.spheres.empty() || one.loss < best.loss) best = std::move(one);
+        }
+        best.times = times;
+        if (!rings.empty()) return best;
+    }
     const UnitDistance unit_distance(search, body.frame), unit_exact(exact, body.frame);
     const std::size_t n = settings.sphere_count;
     // Spheres much smaller than the gaps fit the noise of the samples, not the body.

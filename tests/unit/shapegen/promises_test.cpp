@@ -19,13 +19,13 @@ namespace pelletlab::shapegen {
 namespace {
 
 TriangleMesh trilobe() {
-    return meshes::make_pellet(meshes::LobedExtrudate{}, 60);
+    return meshes::make_pellet(meshes::LobedExtrudate{}, 36);
 }
 TriangleMesh ring() {
-    return meshes::make_pellet(meshes::HollowCylinder{}, 48);
+    return meshes::make_pellet(meshes::HollowCylinder{}, 32);
 }
 TriangleMesh scan() {
-    return meshes::make_scan_like(meshes::ScanLike{}, 4);
+    return meshes::make_scan_like(meshes::ScanLike{}, 3);
 }
 
 FitResult fitted(const TriangleMesh& body, FitMode mode, std::uint32_t spheres) {
@@ -38,8 +38,8 @@ FitResult fitted(const TriangleMesh& body, FitMode mode, std::uint32_t spheres) 
 TEST(Promises, InsideHoldsOnBodiesThatAreNotConvex) {
     for (const TriangleMesh& body : {trilobe(), ring(), scan()}) {
         const auto exact = meshes::exact_signed_distance(body);
-        const FitResult fit = fitted(body, FitMode::inside, 30);
-        ASSERT_EQ(fit.spheres.size(), 30u);
+        const FitResult fit = fitted(body, FitMode::inside, 20);
+        ASSERT_EQ(fit.spheres.size(), 20u);
         EXPECT_LE(fit.poke_out, 4.0 * exact->error_bound());  // bound of the search, and rounding of two changes of frame
         RandomStream random(2, 0);
         for (const Sphere& sphere : fit.spheres) {
@@ -48,8 +48,8 @@ TEST(Promises, InsideHoldsOnBodiesThatAreNotConvex) {
                 ASSERT_LE(exact->value(sphere.centre + sphere.radius * n), 1e-12);
             }
         }
-        // 30 balls of half the ring's wall hold 42 % of it without any overlap: no fit can have more.
-        EXPECT_GT(union_volume(fit.spheres) / meshes::mass_properties(body, 1.0).volume, body.faces.size() == ring().faces.size() ? 0.40 : 0.7);
+        // 20 balls of half the ring's wall hold 28 % of it without any overlap: no fit can have more.
+        EXPECT_GT(union_volume(fit.spheres) / meshes::mass_properties(body, 1.0).volume, body.faces.size() == ring().faces.size() ? 0.26 : 0.7);
     }
 }
 
@@ -69,10 +69,10 @@ TEST(Promises, InsideMayPokeOutAsFarAsAllowed) {
 TEST(Promises, OutsideCoversBodiesThatAreNotConvex) {
     for (const TriangleMesh& body : {trilobe(), scan()}) {
         const auto exact = meshes::exact_signed_distance(body);
-        const FitResult fit = fitted(body, FitMode::outside, 30);
+        const FitResult fit = fitted(body, FitMode::outside, 16);
         const Box box = bounding_box(body);
         RandomStream random(3, 0);
-        for (int k = 0; k < 20000; ++k) {
+        for (int k = 0; k < 8000; ++k) {
             const Vec3 p(random.uniform(box.min().x(), box.max().x()), random.uniform(box.min().y(), box.max().y()),
                          random.uniform(box.min().z(), box.max().z()));
             if (exact->value(p) > 0.0) continue;
@@ -127,7 +127,7 @@ TEST(Promises, MoreSpheresAreBetter) {
     // A ring needs some eight spheres to be a ring at all; before that no number of them is better than another.
     for (const auto& [body, first] : {std::pair{trilobe(), 1u}, std::pair{ring(), 8u}}) {
         double last = 1.0;
-        for (std::uint32_t n = first; n <= 32; n *= 2) {
+        for (std::uint32_t n = first; n <= 16; n *= 2) {
             const double rms = measure_quality(fitted(body, FitMode::mean, n).spheres, body, *meshes::exact_signed_distance(body)).both.rms;
             EXPECT_LT(rms, 0.95 * last) << n;
             last = rms;
