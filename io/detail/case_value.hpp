@@ -1,11 +1,11 @@
 // Values of case keys: from TOML, from an override's text, checked, and back to text.
 #pragma once
 
-#include <toml++/toml.h>
 #include <string>
 
 #include "core/error.hpp"
 #include "io/detail/case_keys.hpp"
+#include "io/detail/toml.hpp"
 
 namespace pelletlab::io::detail {
 

@@ -1,11 +1,11 @@
 // What every TOML file of ours needs: parsing with a place for each mistake, and writing strings and keys.
 #pragma once
 
-#include <toml++/toml.h>
 #include <string>
 #include <string_view>
 
 #include "core/error.hpp"
+#include "io/detail/toml.hpp"
 
 namespace pelletlab::io::detail {
 

@@ -137,7 +137,12 @@ Observables settle_column(const RigidTemplate& pellet, std::uint64_t seed) {
     simulation.add_bodies(bodies);
     packing::Stage fall;
     fall.name = "falling";
-    fall.duration = 0.40;  // at rest since 0.35 s; LIGGGHTS ran 0.61 s
+    fall.duration = 0.61;  // as long as LIGGGHTS ran; most are at rest after 0.35 s
+    fall.watch_interval = 0.01;
+    fall.watch = [](const solver::Simulation& now, std::vector<double>&) {
+        const solver::EnergyReport e = now.energy();
+        return now.time() > 0.3 && e.kinetic_translation + e.kinetic_rotation < 1e-9;
+    };
     packing::Course course(simulation, {}, {});
     course.run(fall);
 

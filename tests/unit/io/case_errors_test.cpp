@@ -26,6 +26,7 @@ class CaseMistakes : public testing::TestWithParam<Mistake> {};
 
 const Mistake mistakes[] = {
     {"Syntax", "seed = 1\nname = \"tube\nrig = \"tube\"\n", 2, 13, "this is no TOML", "correct the text"},
+    {"CommentInATablesHead", "[ # inner\n", 1, 3, "this is no TOML", "correct the text"},  // found by fuzzing: an assertion of toml++
     {"DuplicateKey", "seed = 1\nseed = 2\n", 2, 8, "this is no TOML", "correct the text"},
     {"UnknownKey", "[tube]\n  diametre = \"52 mm\"\n", 2, 3, "unknown key 'tube.diametre'", "did you mean 'tube.diameter'?"},
     {"UnknownTopKey", "sead = 1\n", 1, 1, "unknown key 'sead'", "did you mean 'seed'?"},
