@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/print_observables.hpp"
 #include "apps/run_keeper.hpp"
 #include "apps/shape_stage.hpp"
 #include "apps/stage.hpp"
@@ -54,17 +55,6 @@ packing::RunResult run_rig(const Case& c, const packing::RunInputs& inputs, RunK
     progress.finish();
     keeper.finish(trajectory_file);
     return result;
-}
-
-void print_observables(const Observables& observables) {
-    std::vector<std::pair<std::string, std::string>> rows;
-    for (const Observable& o : observables.values) {
-        std::string text = fmt::format("{:.5g}", o.value);
-        if (std::isfinite(o.standard_error)) text += fmt::format(" ± {:.2g}", o.standard_error);
-        rows.emplace_back(o.name, text + " " + o.unit + (o.method.empty() ? "" : "   [" + o.method + "]"));
-    }
-    print_line(fmt::format("Measured ({}; definitions in docs/observables.md):", observables.status));
-    print_pairs(rows);
 }
 
 using Written = std::vector<std::pair<std::string, std::string>>;  // file name in the stage's folder, what it is

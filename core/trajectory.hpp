@@ -32,7 +32,8 @@ struct TrajectoryHeader {
     Provenance provenance;
 };
 
-/// One stored instant; all vectors have one entry a body, wall_poses one a wall.
+/// One stored instant; all vectors have one entry a body, wall_poses one a wall. A body that was not seen at this instant (a lost track of a camera)
+/// has a NaN position, one whose velocity is not known a NaN velocity; a run of our own never has either.
 struct Frame {
     double time = 0.0;               ///< [s]
     std::vector<Vec3> positions;     ///< [m], centres of mass, world
@@ -40,6 +41,9 @@ struct Frame {
     std::vector<Vec3> velocities;    ///< [m/s], world
     std::vector<Vec3> spins;         ///< [rad/s], world
     std::vector<Pose> wall_poses;    ///< wall frame → world
+
+    bool is_seen(std::size_t body) const { return positions[body].allFinite(); }
+    bool is_tracked(std::size_t body) const { return is_seen(body) && velocities[body].allFinite(); }
 };
 
 /// Frames one after the other, from memory or from a file: operators stream through it and hold one frame at a time.

@@ -19,14 +19,18 @@ void deposit(CellSums& sums, std::size_t cell, double volume, const Vec2& veloci
 }
 
 void add_frame(const Frame& frame, const TrajectoryHeader& header, const std::vector<PelletPoints>& shapes, const ChordFrame& chord, const ViewGrid& chord_grid,
-               const ViewGrid& map_grid, GroupSums& group, CellSums& map) {
+               const ViewGrid& map_grid, const ViewFilter& filter, GroupSums& group, CellSums& map) {
     for (std::size_t body = 0; body < frame.positions.size(); ++body) {
+        if (!frame.is_tracked(body)) continue;
         const PelletPoints& pellet = shapes[header.shape_of_body[body]];
-        const double weight = pellet.volume / static_cast<double>(pellet.points_body.size());
+        const double weight = filter.pellets_each * pellet.volume / static_cast<double>(pellet.points_body.size());
         const Mat3 rotation = frame.orientations[body].toRotationMatrix();
         const Vec3 position = frame.positions[body], velocity = frame.velocities[body], spin = frame.spins[body];
         for (const Vec3& point : pellet.points_body) {
             const Vec3 arm = rotation * point;
+            const double y = position.y() + arm.y();
+            if (y < filter.y_begin || y >= filter.y_end) continue;
+            group.solid_volume += weight;
             const double x = position.x() + arm.x(), z = position.z() + arm.z();
             const double vx = velocity.x() + spin.y() * arm.z() - spin.z() * arm.y();
             const double vz = velocity.z() + spin.x() * arm.y() - spin.y() * arm.x();
@@ -96,6 +100,7 @@ Vec2 mean_position(const FrameSource& trajectory, const std::vector<std::size_t>
     for (const std::size_t index : frames) {
         const Frame frame = trajectory.frame(index);
         for (std::size_t body = 0; body < frame.positions.size(); ++body) {
+            if (!frame.is_seen(body)) continue;
             const double weight = shapes[header.shape_of_body[body]].volume;
             x += weight * frame.positions[body].x();
             z += weight * frame.positions[body].z();
@@ -106,11 +111,10 @@ Vec2 mean_position(const FrameSource& trajectory, const std::vector<std::size_t>
 }
 
 EndView collect(const FrameSource& trajectory, const std::vector<std::vector<std::size_t>>& groups, const std::vector<PelletPoints>& shapes,
-                const ChordFrame& chord, const ViewGrid& chord_grid, const ViewGrid& map_grid) {
+                const ChordFrame& chord, const ViewGrid& chord_grid, const ViewGrid& map_grid, const ViewFilter& filter) {
     const TrajectoryHeader& header = trajectory.header();
-    EndView view{chord_grid, map_grid, {}, CellSums(map_grid.cells()), 0.0};
-    view.groups.assign(groups.size(), {0, CellSums(chord_grid.cells())});
-    for (const std::uint32_t shape : header.shape_of_body) view.solid_volume += shapes[shape].volume;
+    EndView view{chord_grid, map_grid, {}, CellSums(map_grid.cells())};
+    view.groups.assign(groups.size(), {0, CellSums(chord_grid.cells()), 0.0});
     std::vector<CellSums> maps(lanes, CellSums(map_grid.cells()));
     for (std::size_t first = 0; first < groups.size(); first += lanes) {
         const std::size_t side_by_side = std::min(lanes, groups.size() - first);
@@ -122,7 +126,7 @@ EndView collect(const FrameSource& trajectory, const std::vector<std::vector<std
                 if (k < groups[first + lane].size()) frames[lane] = trajectory.frame(groups[first + lane][k]);
             parallel_for(side_by_side, 1, [&](std::size_t lane) {
                 if (k < groups[first + lane].size())
-                    add_frame(frames[lane], header, shapes, chord, chord_grid, map_grid, view.groups[first + lane], maps[lane]);
+                    add_frame(frames[lane], header, shapes, chord, chord_grid, map_grid, filter, view.groups[first + lane], maps[lane]);
             });
         }
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "observables/detail/pellet_points.hpp"
@@ -49,25 +50,33 @@ struct ViewGrid {
     std::vector<double> area_inside(double radius) const;
 };
 
+/// Which part of the pellets counts, and how much.
+struct ViewFilter {
+    double y_begin = -std::numeric_limits<double>::infinity();  ///< [m], axial slab: points with y_begin ≤ y < y_end
+    double y_end = std::numeric_limits<double>::infinity();
+    double pellets_each = 1.0;  ///< pellets that every body stands for: more than 1 when only some of the pellets in the drum were tracked
+};
+
 /// What one group of frames adds up to.
 struct GroupSums {
     std::size_t frames = 0;
     CellSums chord;
+    double solid_volume = 0.0;  ///< [m³], pellet volume that counted, summed over the frames
 };
 
 struct EndView {
     ViewGrid chord_grid, map_grid;
     std::vector<GroupSums> groups;  ///< in the order of time
     CellSums map;                   ///< world frame, all groups
-    double solid_volume = 0.0;      ///< [m³], of all pellets of a frame
 };
 
 /// Volume-weighted mean position of the pellets over these frames, world (x, z) [m].
 Vec2 mean_position(const FrameSource& trajectory, const std::vector<std::size_t>& frames, const std::vector<PelletPoints>& shapes);
 
 /// Spreads every pellet of every frame over both grids, each of its volume points with its own velocity v + ω × r. `groups` lists the frames of each group.
-/// Frames are read one after the other; groups are summed side by side, with the same bits for any thread count.
+/// Bodies whose velocity is not known are left out. Frames are read one after the other; groups are summed side by side, with the same bits for any thread
+/// count.
 EndView collect(const FrameSource& trajectory, const std::vector<std::vector<std::size_t>>& groups, const std::vector<PelletPoints>& shapes,
-                const ChordFrame& chord, const ViewGrid& chord_grid, const ViewGrid& map_grid);
+                const ChordFrame& chord, const ViewGrid& chord_grid, const ViewGrid& map_grid, const ViewFilter& filter);
 
 }  // namespace pelletlab::observables::detail

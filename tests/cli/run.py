@@ -14,11 +14,13 @@ import bodies
 import harness
 import test_cases
 import test_meshes
+import test_observe
 import test_resume
 import test_runs
 import test_usage
 
-CLASSES = {name: one for module in (test_usage, test_meshes, test_cases, test_runs, test_resume) for name, one in inspect.getmembers(module, inspect.isclass)
+MODULES = (test_usage, test_meshes, test_observe, test_cases, test_runs, test_resume)
+CLASSES = {name: one for module in MODULES for name, one in inspect.getmembers(module, inspect.isclass)
            if issubclass(one, harness.PelletlabTest) and one is not harness.PelletlabTest}
 
 

@@ -4,7 +4,7 @@ import re
 
 from harness import BAD_INPUT, USAGE, PelletlabTest
 
-VERBS = [["shape"], ["fill"], ["drum"], ["demo"], ["mesh"], ["mesh", "check"], ["mesh", "assets"], ["case"], ["case", "new"], ["case", "check"],
+VERBS = [["shape"], ["fill"], ["drum"], ["demo"], ["observe"], ["observe", "tube"], ["observe", "pile"], ["observe", "drum"], ["mesh"], ["mesh", "check"], ["mesh", "assets"], ["case"], ["case", "new"], ["case", "check"],
          ["case", "schema"], ["case", "reference"]]
 
 
@@ -12,14 +12,14 @@ class Usage(PelletlabTest):
     def test_help_of_every_verb_has_an_example(self):
         for verb in VERBS:
             help_text = self.succeeds(*verb, "--help").out
-            if verb in (["case"], ["mesh"]):  # groups: their verbs are listed, each with its example
+            if verb in (["case"], ["mesh"], ["observe"]):  # groups: their verbs are listed, each with its example
                 self.assertIn("example: pelletlab", help_text, verb)
             else:
                 self.assertIn("example: pelletlab " + " ".join(verb), help_text, verb)
 
     def test_help_lists_every_verb_and_shows_the_chain(self):
         text = self.succeeds("--help").out
-        for verb in ("shape", "fill", "drum", "demo", "mesh", "case"):
+        for verb in ("shape", "fill", "drum", "observe", "demo", "mesh", "case"):
             self.assertRegex(text, rf"(?m)^\s+{verb}\b")
         self.assertIn("pelletlab shape", text)
 

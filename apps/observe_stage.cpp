@@ -1,0 +1,157 @@
+#include "apps/observe_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "apps/print_observables.hpp"
+#include "apps/stage.hpp"
+#include "apps/terminal.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "io/files.hpp"
+#include "io/observables_file.hpp"
+#include "observables/bed.hpp"
+#include "observables/drum.hpp"
+#include "observables/pile.hpp"
+#include "report/pictures.hpp"
+
+namespace pelletlab::apps {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+double given(const std::string& text, Dimension dimension, double otherwise) {
+    return text.empty() ? otherwise : parse_quantity(text, dimension);
+}
+
+/// A number that a run of our own knows and a table does not.
+double needed(const std::string& text, Dimension dimension, const std::optional<double>& of_case, const char* option, const char* what) {
+    if (!text.empty()) return parse_quantity(text, dimension);
+    if (!of_case) throw usage_error(fmt::format("{} is not known", what), fmt::format("give it with {}", option));
+    return *of_case;
+}
+
+const Case* case_of(const OpenedTrajectory& opened, Rig rig) {
+    if (!opened.resolved_case) return nullptr;
+    if (opened.resolved_case->rig != rig)
+        throw usage_error("this is a run of a " + rig_name(opened.resolved_case->rig),
+                          "observe it with: pelletlab observe " + rig_name(opened.resolved_case->rig));
+    return &*opened.resolved_case;
+}
+
+TimeWindow window_of(const ObserveRequest& request, const FrameSource& frames, double begin) {
+    if (frames.frame_count() == 0) throw bad_input("the trajectory holds no frame", "run the case again", {request.trajectory.file.string()});
+    TimeWindow window{given(request.from, dimension::time, begin), given(request.until, dimension::time, frames.time(frames.frame_count() - 1))};
+    if (!(window.begin <= window.end)) throw usage_error("the window ends before it begins", "give --from a time before --until");
+    return window;
+}
+
+using Pictures = std::function<void(const Observables&, const fs::path& folder)>;
+
+/// Measures unless the folder holds the result of the same file and options already; writes observables.json and pictures together.
+void finish(const ObserveRequest& request, const char* rig, const OpenedTrajectory& opened, const std::function<Observables()>& measure,
+            const Pictures& pictures) {
+    const Stopwatch stopwatch;
+    StageKey key;
+    key.verb = std::string("observe ") + rig;
+    key.settings = request.settings();
+    key.inputs = opened.inputs;
+    const fs::path folder = request.output.empty() ? fs::path("observed") : request.output;
+    if (!request.force && stage_is_finished(folder, key)) {
+        print_line(folder.string() + " is up to date (same trajectory, same options, same program)");
+        return;
+    }
+    StageFolder stage(folder);
+    Observables observables = measure();
+    throw_if_interrupted();
+    const std::uint64_t seed = observables.provenance.seed;
+    observables.provenance = provenance_of(key, seed);
+    print_observables(observables);
+    io::write_observables(observables, stage.unfinished() / "observables.json");
+    if (request.pictures && pictures) pictures(observables, stage.unfinished());
+    throw_if_interrupted();
+    std::vector<std::string> written;
+    for (const auto& entry : fs::directory_iterator(stage.unfinished())) written.push_back(entry.path().filename().string());
+    std::sort(written.begin(), written.end());
+    stage.finish(key);
+    for (const std::string& file : written) print_written(folder / file, file.ends_with(".png") ? "picture of a map" : "measured values, profiles and maps");
+    print_line("  took " + duration_text(stopwatch.seconds()));
+}
+
+void write_map(const Observables& observables, const char* map, double circle, const fs::path& file) {
+    for (const FieldMap& one : observables.maps)
+        if (one.name == map) {
+            report::PictureSettings settings;
+            settings.circle_diameter = circle;
+            report::write_png(report::picture_of_map(observables, map, settings), file);
+        }
+}
+
+}  // namespace
+
+std::string ObserveRequest::settings() const {
+    std::string text = trajectory.settings();
+    for (const std::string* option : {&diameter, &length, &speed, &floor, &ceiling, &from, &until, &grid, &view_depth, &camera_grid, &slab})
+        text += *option + "|";
+    return text + fmt::format("{}|{}", pellets_each, pictures);
+}
+
+void observe_tube(const ObserveRequest& request) {
+    const OpenedTrajectory opened = open_for_observation(request.trajectory);
+    const Case* c = case_of(opened, Rig::tube);
+    observables::TubeGeometry tube;
+    tube.radius = 0.5 * needed(request.diameter, dimension::length, c ? std::optional(c->tube.diameter) : std::nullopt, "--diameter \"52 mm\"",
+                               "the tube's inner diameter");
+    tube.floor = given(request.floor, dimension::length, 0.0);
+    tube.height_grid = given(request.grid, dimension::length, c ? c->measurement.height_grid : tube.height_grid);
+    finish(request, "tube", opened, [&] { return observables::measure_tube_bed(*opened.frames, tube); }, {});
+}
+
+void observe_pile(const ObserveRequest& request) {
+    const OpenedTrajectory opened = open_for_observation(request.trajectory);
+    observables::PileGeometry pile;
+    pile.plate = given(request.floor, dimension::length, pile.plate);
+    pile.ceiling = given(request.ceiling, dimension::length, pile.ceiling);
+    pile.height_grid = given(request.grid, dimension::length, pile.height_grid);
+    finish(
+        request, "pile", opened, [&] { return observables::measure_pile(*opened.frames, pile); },
+        [](const Observables& measured, const fs::path& folder) { write_map(measured, "pile_top_surface", 0.0, folder / "top-surface.png"); });
+}
+
+void observe_drum(const ObserveRequest& request) {
+    const OpenedTrajectory opened = open_for_observation(request.trajectory);
+    const Case* c = case_of(opened, Rig::drum);
+    const auto known = [c](double DrumRig::*member) { return c ? std::optional(c->drum.*member) : std::nullopt; };
+    observables::DrumGeometry drum;
+    drum.radius = 0.5 * needed(request.diameter, dimension::length, known(&DrumRig::diameter), "--diameter \"240 mm\"", "the drum's inner diameter");
+    drum.length = needed(request.length, dimension::length, known(&DrumRig::length), "--length \"90 mm\"", "the drum's inner length");
+    drum.rotation_speed = needed(request.speed, dimension::rotation_speed, known(&DrumRig::speed), "--speed \"20 rpm\" (negative when it turns the other way)",
+                                 "the drum's speed");
+    drum.velocity_grid = given(request.grid, dimension::length, c ? c->measurement.velocity_grid : drum.velocity_grid);
+    drum.view_depth = given(request.view_depth, dimension::length, 0.0);
+    drum.camera_grid = given(request.camera_grid, dimension::length, drum.camera_grid);
+    drum.pellets_each = request.pellets_each;
+    drum.depth_known = opened.depth_known;
+    if (!request.slab.empty()) {
+        const std::size_t comma = request.slab.find(',');
+        if (comma == std::string::npos) throw usage_error("--slab needs two places along the axis", "for instance --slab \"-5 mm, 5 mm\"");
+        drum.slab_begin = parse_quantity(std::string_view(request.slab).substr(0, comma), dimension::length);
+        drum.slab_end = parse_quantity(std::string_view(request.slab).substr(comma + 1), dimension::length);
+        if (!(drum.slab_begin < drum.slab_end)) throw usage_error("the slab ends before it begins", "give the smaller place first");
+    }
+    const FrameSource& frames = *opened.frames;
+    const double end = frames.frame_count() > 0 ? frames.time(frames.frame_count() - 1) : 0.0;
+    const TimeWindow window = window_of(request, frames, c ? end - c->time.measure : frames.frame_count() > 0 ? frames.time(0) : 0.0);
+    finish(
+        request, "drum", opened, [&] { return observables::measure_drum(frames, drum, window); },
+        [&](const Observables& measured, const fs::path& folder) {
+            write_map(measured, "speed", 2.0 * drum.radius, folder / "velocity-map.png");
+            write_map(measured, "camera_speed", 2.0 * drum.radius, folder / "camera-velocity-map.png");
+        });
+}
+
+}  // namespace pelletlab::apps

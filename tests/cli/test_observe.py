@@ -1,0 +1,77 @@
+"""pelletlab observe: runs of our own and tables of tracked particles."""
+
+import json
+import math
+
+from harness import BAD_INPUT, SMALL, USAGE, PelletlabTest
+
+DRUM = ["--diameter", "80 mm", "--length", "20 mm", "--speed", "20 rpm", "--pellet-diameter", "4 mm", "--no-picture"]
+
+
+def turning_table(mm=1.0):
+    """Spheres that turn as a solid body with the drum, the lower half full: places only, no velocities."""
+    speed, rows = 20.0 * 2.0 * math.pi / 60.0, ["time [s];id;x;y;z"]
+    places = [(4.0 * i, 4.0 * j, 4.0 * k) for i in range(-9, 10) for j in (-2, 0, 2) for k in range(-9, 0) if math.hypot(4 * i, 4 * k) < 38.0]
+    for step in range(12):
+        turn = speed * 0.001 * step
+        for number, (x, y, z) in enumerate(places):
+            rows.append(f"{0.001 * step:.4f};{number};{mm * (x * math.cos(turn) + z * math.sin(turn)):.6f};{mm * y:.6f};"
+                        f"{mm * (z * math.cos(turn) - x * math.sin(turn)):.6f}")
+    return "\n".join(rows) + "\n"
+
+
+class Observe(PelletlabTest):
+    def values(self, folder):
+        found = json.loads(self.read(folder, "observables.json"))
+        return {one["name"]: one["value"] for one in found["values"]}
+
+    def test_table_of_a_turning_drum(self):
+        self.write("tracks.csv", turning_table())
+        result = self.succeeds("observe", "drum", "tracks.csv", "--unit", "mm", *DRUM, "-o", "seen")
+        self.assertIn("12 times", result.out)
+        # Places are written to 1 nm, so velocities over 2 ms are good to 1 µm/s; the layer turns with the drum.
+        self.assertAlmostEqual(self.values("seen")["rigid_layer_rotation"], 1.0, delta=0.03)
+        self.assertIn("up to date", self.succeeds("observe", "drum", "tracks.csv", "--unit", "mm", *DRUM, "-o", "seen").out)
+        # The same in metres is the same.
+        self.write("metres.csv", turning_table(1e-3).replace(";x;y;z", ";x [m];y [m];z [m]"))
+        self.succeeds("observe", "drum", "metres.csv", *DRUM, "-o", "again")
+        self.assertAlmostEqual(self.values("again")["rigid_layer_rotation"], self.values("seen")["rigid_layer_rotation"], delta=0.01)
+
+    def test_table_of_a_pile(self):
+        rows = ["time (s),id,x (mm),y (mm),z (mm)"]
+        number = 0
+        for i in range(-30, 31):
+            for j in range(-30, 31):
+                if math.hypot(i, j) < 30:
+                    number += 1
+                    rows.append(f"1,{number},{2 * i},{2 * j},{0.5 * (60 - 2 * math.hypot(i, j)) + 2:.6f}")
+        self.write("pile.csv", "\n".join(rows) + "\n")
+        self.succeeds("observe", "pile", "pile.csv", "--pellet-diameter", "4 mm", "-o", "seen")
+        # Spheres 2 mm apart leave dents of 0.27 mm at most below the ideal cone of slope 1/2: the flank is fitted to a few tenths of a degree.
+        self.assertAlmostEqual(self.values("seen")["angle_of_repose_cone"], math.degrees(math.atan(0.5)), delta=0.5)
+        self.assertIn("top-surface.png", self.everything_below("seen"))
+
+    def everything_below(self, folder):
+        return [name[len(folder) + 1:] for name in self.everything() if name.startswith(folder + "/")]
+
+    def test_errors_of_a_table(self):
+        self.write("tracks.csv", "time [s],id,x [mm],y [mm],z [mm]\n0,1,1,1,1\n0.1,1,1,one,1\n")
+        self.fails(BAD_INPUT, "observe", "drum", "tracks.csv", *DRUM, says=["tracks.csv:3:9", "'one'"])
+        self.write("tracks.csv", "time,id,x,y,z\n0,1,1,1,1\n")
+        self.fails(BAD_INPUT, "observe", "drum", "tracks.csv", *DRUM, says=["tracks.csv:1:", "unit"])
+        self.write("tracks.csv", "time [s],id,x [mm],y [mm],z [mm]\n0,1,1,1,1\n")
+        self.fails(BAD_INPUT, "observe", "pile", "tracks.csv", says=["how large", "--pellet-diameter"])
+        self.fails(BAD_INPUT, "observe", "pile", "nothing.csv", says="nothing.csv")
+        self.fails(USAGE, "observe", "drum", "tracks.csv", "--pellet-diameter", "4 mm", says="--diameter")
+        self.fails(USAGE, "observe", "pile", "tracks.csv", "--pellet-diameter", "4 mm", "--up", "w", says="--up")
+        self.fails(BAD_INPUT, "observe", "pile", "tracks.csv", "--pellet-diameter", "4", says="unit")
+        self.fails(USAGE, "observe", "silo", "tracks.csv", says="silo")
+
+    def test_run_of_a_tube(self):
+        self.succeeds("fill", self.new_case(), *SMALL, "-o", "run")
+        self.succeeds("observe", "tube", "run/run.h5", "-o", "seen")
+        measured, again = self.values("run"), self.values("seen")
+        for name in ("bed_height_h95", "bed_height_grid", "packing_fraction_mass"):
+            self.assertEqual(measured[name], again[name], name)  # the same operator on the same frame
+        self.fails(USAGE, "observe", "drum", "run/run.h5", says="tube")
+        self.fails(USAGE, "observe", "tube", "run/run.h5", "--unit", "mm", says="leave")
