@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -16,6 +18,7 @@
 #include "observables/bed.hpp"
 #include "observables/drum.hpp"
 #include "observables/pile.hpp"
+#include "observables/steady.hpp"
 #include "report/pictures.hpp"
 
 namespace pelletlab::apps {
@@ -80,6 +83,18 @@ void finish(const ObserveRequest& request, const char* rig, const OpenedTrajecto
     stage.finish(key);
     for (const std::string& file : written) print_written(folder / file, file.ends_with(".png") ? "picture of a map" : "measured values, profiles and maps");
     print_line("  took " + duration_text(stopwatch.seconds()));
+}
+
+/// Torque on the walls, which a trajectory does not hold: from the observables that the run itself left beside it, with the drive's power.
+void add_torque_of_run(Observables& observables, const fs::path& trajectory, double speed) {
+    const fs::path file = trajectory.parent_path() / "observables.json";
+    if (!fs::exists(file)) return;
+    for (const Observable& value : io::read_observables(file).values) {
+        if (value.name != "drum_torque" || value.unit != "mN*m") continue;
+        observables.values.push_back(value);
+        const double to_milliwatt = std::abs(speed);  // of mN m
+        observables.values.push_back({"drum_power", "mW", value.value * to_milliwatt, value.standard_error * to_milliwatt, value.window, "drum.torque"});
+    }
 }
 
 void write_map(const Observables& observables, const char* map, double circle, const fs::path& file) {
@@ -147,7 +162,17 @@ void observe_drum(const ObserveRequest& request) {
     const double end = frames.frame_count() > 0 ? frames.time(frames.frame_count() - 1) : 0.0;
     const TimeWindow window = window_of(request, frames, c ? end - c->time.measure : frames.frame_count() > 0 ? frames.time(0) : 0.0);
     finish(
-        request, "drum", opened, [&] { return observables::measure_drum(frames, drum, window); },
+        request, "drum", opened,
+        [&] {
+            Observables measured = observables::measure_drum(frames, drum, window);
+            if (const Observable onset = observables::drum_steady_onset(frames); std::isfinite(onset.value)) {
+                measured.values.push_back(onset);
+                // An onset that the window's begin does not reach within two errors.
+                if (measured.status == "complete" && onset.value > window.begin + 2.0 * onset.standard_error) measured.status = "not steady";
+            }
+            if (c) add_torque_of_run(measured, request.trajectory.file, drum.rotation_speed);
+            return measured;
+        },
         [&](const Observables& measured, const fs::path& folder) {
             write_map(measured, "speed", 2.0 * drum.radius, folder / "velocity-map.png");
             write_map(measured, "camera_speed", 2.0 * drum.radius, folder / "camera-velocity-map.png");

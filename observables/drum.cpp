@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "observables/detail/drum_analysis.hpp"
 #include "observables/detail/drum_fields.hpp"
+#include "observables/detail/drum_motion.hpp"
 #include "observables/statistics.hpp"
 
 namespace pelletlab::observables {
@@ -112,6 +113,19 @@ std::vector<Observable> scalars(const Analysis& analysis) {
     return values;
 }
 
+/// The camera's layer, measured as the whole length is: figures «front_…».
+void add_front_layer(Observables& result, const FrameSource& trajectory, const std::vector<std::size_t>& frames,
+                     const std::vector<detail::PelletPoints>& shapes, const Analysis& whole) {
+    const DrumGeometry& drum = whole.drum;
+    const double depth = drum.view_depth > 0.0 ? drum.view_depth : 2.0 * whole.settings.pellet_diameter, front = -0.5 * drum.length;
+    if (depth >= drum.length) return;
+    const Analysis layer = detail::analyse_drum(trajectory, frames, shapes, drum, {front, front + depth, drum.pellets_each});
+    for (Observable value : scalars(layer)) {
+        value.name = "front_" + value.name;
+        result.values.push_back(std::move(value));
+    }
+}
+
 }  // namespace
 
 Observables measure_drum(const FrameSource& trajectory, const DrumGeometry& drum, const TimeWindow& window) {
@@ -132,6 +146,16 @@ Observables measure_drum(const FrameSource& trajectory, const DrumGeometry& drum
     for (const std::uint32_t shape : header.shape_of_body) mean_volume += shapes[shape].volume / static_cast<double>(header.shape_of_body.size());
     result.maps = detail::end_view_maps(analysis.view.map, analysis.view.map_grid,
                                         {drum.radius, analysis.settings.drum_length, static_cast<double>(frames.size()), mean_volume, analysis.window});
+
+    const detail::DrumWindow measured{trajectory, frames, analysis, {drum.slab_begin, drum.slab_end, drum.pellets_each}};
+    detail::add_active_layer(result, analysis);
+    detail::add_speeds(result, measured);
+    detail::add_circulation(result, measured);
+    detail::add_mixing(result, measured);
+    detail::add_weight_torque(result, measured);
+    const bool whole_length = !(drum.slab_begin > -0.5 * drum.length) && !(drum.slab_end < 0.5 * drum.length);
+    if (drum.depth_known) detail::add_camera(result, measured);
+    if (drum.depth_known && whole_length) add_front_layer(result, trajectory, frames, shapes, analysis);
     return result;
 }
 
