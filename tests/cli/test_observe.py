@@ -29,8 +29,8 @@ class Observe(PelletlabTest):
         self.write("tracks.csv", turning_table())
         result = self.succeeds("observe", "drum", "tracks.csv", "--unit", "mm", *DRUM, "-o", "seen")
         self.assertIn("12 times", result.out)
-        # Places are written to 1 nm, so velocities over 2 ms are good to 1 µm/s; the layer turns with the drum.
-        self.assertAlmostEqual(self.values("seen")["rigid_layer_rotation"], 1.0, delta=0.03)
+        # The layer turns with the drum; without a known spin all points of a pellet move as its centre does, which costs a few percent beside the wall.
+        self.assertAlmostEqual(self.values("seen")["rigid_layer_rotation"], 1.0, delta=0.05)
         self.assertIn("up to date", self.succeeds("observe", "drum", "tracks.csv", "--unit", "mm", *DRUM, "-o", "seen").out)
         # The same in metres is the same.
         self.write("metres.csv", turning_table(1e-3).replace(";x;y;z", ";x [m];y [m];z [m]"))
