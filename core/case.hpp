@@ -35,7 +35,34 @@ struct ContactParameters {
     double restitution = 0.4;
     double sliding_friction = 0.7;
     double rolling_friction = 0.05;
+    // Of laws that ask for them (PhysicsChoice); a row need not state these.
+    double kinetic_friction_ratio = 1.0;   ///< kinetic / static friction; 1: friction does not depend on speed
+    double relaxation_time = 0.0;          ///< [s], of contact_model «viscoelastic»
+    double attraction_force = 0.0;         ///< [N], of cohesion «constant_force»
+    double cohesion_energy_density = 0.0;  ///< [J/m³], of cohesion «sjkr»
+    double work_of_adhesion = 0.0;         ///< [J/m²], of cohesion «jkr»
     bool operator==(const ContactParameters&) const = default;
+};
+
+/// The laws of a run; what each means stands in solver/physics.hpp and solver/body_forces.hpp.
+struct PhysicsChoice {
+    std::string contact_model = "hertz_edem";
+    std::string rolling_model = "constant_torque";
+    std::string cohesion = "none";
+    std::string clump_contacts = "sum";
+    double linear_stiffness = 1e4;  ///< [N/m]
+    double rolling_damping = 0.3;
+    double rolling_damping_sliding = 0.0;
+    double friction_decay_speed = 0.1;        ///< [m/s]
+    double liquid_surface_tension = 0.0728;   ///< [N/m]
+    double liquid_contact_angle = 0.0;        ///< [rad]
+    double liquid_bridge_volume = 1e-12;      ///< [m³]
+    double air_density = 0.0;                 ///< [kg/m³]; 0: no drag
+    Vec3 attraction = Vec3::Zero();           ///< [m/s²], a uniform field beside gravity
+    double vibration_frequency = 0.0;         ///< [Hz], of all walls; 0: none
+    Vec3 vibration_amplitude = Vec3::Zero();  ///< [m]
+    bool energy_book = false;
+    bool operator==(const PhysicsChoice&) const = default;
 };
 
 struct PelletChoice {
@@ -111,6 +138,7 @@ struct Case {
     PelletChoice pellet;
     std::map<std::string, Material> materials;          ///< by name
     std::map<std::string, ContactParameters> contacts;  ///< by «pellet-pellet», «pellet-vessel», «pellet-<wall name>»
+    PhysicsChoice physics;
     TubeRig tube;
     DrumRig drum;
     Insertion insertion;

@@ -72,8 +72,11 @@ std::vector<solver::WallDefinition> drum_walls(const Case& c) {
 
 void start_rotation(solver::Simulation& simulation, const DrumRig& drum) {
     for (std::size_t wall = 0; wall < simulation.definition().walls.size(); ++wall)
-        if (drum.end_plates_rotate || simulation.definition().walls[wall].name == "shell")
-            simulation.set_wall_motion(wall, {Vec3::Zero(), Vec3::UnitY(), drum.speed, Vec3::Zero()});
+        if (drum.end_plates_rotate || simulation.definition().walls[wall].name == "shell") {
+            solver::WallMotion motion = simulation.definition().walls[wall].motion;  // keeps a vibration
+            motion.axis = Vec3::UnitY(), motion.rotation_speed = drum.speed;
+            simulation.set_wall_motion(wall, motion);
+        }
 }
 
 /// Torque about the axis that keeps the drum turning, against what the pellets exert on the turning walls; positive in the sense of rotation [N m].

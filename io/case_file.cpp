@@ -173,7 +173,7 @@ private:
                 if (has_default) continue;
                 for (const CaseKey* key : keys_of(section)) {
                     const std::string table = written_path({section.path[0], name});
-                    if (places_.has(table + "." + key->leaf())) continue;
+                    if (key->optional || places_.has(table + "." + key->leaf())) continue;
                     throw bad_input(table + " has no " + key->leaf(), "write for instance " + key->leaf() + " = " + example_value(*key),
                                     place_of_table(table, section));
                 }

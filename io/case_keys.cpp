@@ -81,6 +81,18 @@ CaseKey one_of(std::vector<std::string> choices, CaseKey k) {
     return k;
 }
 
+/// A text that must be one of these words.
+CaseKey word(std::vector<std::string> choices, CaseKey k) {
+    k.kind = KeyKind::choice;
+    k.choices = std::move(choices);
+    return k;
+}
+
+CaseKey optional(CaseKey k) {
+    k.optional = true;
+    return k;
+}
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Range above(double lower) {
     return {lower, infinity, true, true};
@@ -104,6 +116,68 @@ constexpr Range between(double lower, double upper) {
         (void)c, (void)name;                        \
         return expression;                          \
     }
+
+/// Contact parameters of laws that are not the study's.
+template <class Add>
+void add_physics_of_contacts(const Add& add) {
+    using namespace dimension;
+    add(optional(
+        within(from_to(0, 1), key("contacts.*.kinetic_friction_ratio", PELLETLAB_MEMBER(c.contacts.at(name).kinetic_friction_ratio),
+                                  "Kinetic / static friction: falls with the sliding speed v as 1 / (1 + v / physics.friction_decay_speed); 1: constant."))));
+    add(optional(in(time, "us",
+                    within(from(0), key("contacts.*.relaxation_time", PELLETLAB_MEMBER(c.contacts.at(name).relaxation_time),
+                                        "Dissipation of physics.contact_model = \"viscoelastic\", which takes the place of restitution.")))));
+    add(optional(in(force, "mN",
+                    within(from(0), key("contacts.*.attraction_force", PELLETLAB_MEMBER(c.contacts.at(name).attraction_force),
+                                        "Pull of every touching contact, of physics.cohesion = \"constant_force\".")))));
+    add(optional(in(pressure, "kPa",
+                    within(from(0), key("contacts.*.cohesion_energy_density", PELLETLAB_MEMBER(c.contacts.at(name).cohesion_energy_density),
+                                        "Pull per contact area (J/m^3 = Pa), of physics.cohesion = \"sjkr\".")))));
+    add(optional(in(surface_energy, "J/m^2",
+                    within(from(0), key("contacts.*.work_of_adhesion", PELLETLAB_MEMBER(c.contacts.at(name).work_of_adhesion),
+                                        "Work of adhesion, twice the surface energy, of physics.cohesion = \"jkr\".")))));
+}
+
+/// Laws and forces; the defaults are the study's.
+template <class Add>
+void add_physics(const Add& add) {
+    using namespace dimension;
+    add(word({"hertz_edem", "hertz_impulse_exact", "linear", "viscoelastic"}, key("physics.contact_model", PELLETLAB_MEMBER(c.physics.contact_model),
+                                                                                  "Hertz-Mindlin as in EDEM, Hertz-Mindlin that never pulls and returns with "
+                                                                                  "the exact restitution, linear spring-dashpot, or viscoelastic spheres.")));
+    add(word({"constant_torque", "viscous", "elastic_plastic"},
+             key("physics.rolling_model", PELLETLAB_MEMBER(c.physics.rolling_model), "Rolling friction of type A, B or C (EPSD) of Ai et al. 2011.")));
+    add(word({"none", "constant_force", "sjkr", "jkr", "capillary"},
+             key("physics.cohesion", PELLETLAB_MEMBER(c.physics.cohesion), "Attraction of touching pellets; jkr and capillary hold beyond touching.")));
+    add(word({"sum", "shared"}, key("physics.clump_contacts", PELLETLAB_MEMBER(c.physics.clump_contacts),
+                                    "Every sphere contact of two pellets counts in full, or they share the load of one contact.")));
+    add(in(surface_energy, "N/m",
+           within(above(0),
+                  key("physics.linear_stiffness", PELLETLAB_MEMBER(c.physics.linear_stiffness), "Normal stiffness of every contact of the linear model."))));
+    add(within(from_to(0, 2),
+               key("physics.rolling_damping", PELLETLAB_MEMBER(c.physics.rolling_damping), "Share of critical damping of elastic_plastic rolling.")));
+    add(within(from_to(0, 1), key("physics.rolling_damping_sliding", PELLETLAB_MEMBER(c.physics.rolling_damping_sliding),
+                                  "Part of that damping that stays when the full rolling torque acts.")));
+    add(in(velocity, "m/s",
+           within(above(0), key("physics.friction_decay_speed", PELLETLAB_MEMBER(c.physics.friction_decay_speed),
+                                "Sliding speed at which friction has fallen half way to its kinetic value."))));
+    add(in(
+        surface_energy, "N/m",
+        within(from(0), key("physics.liquid_surface_tension", PELLETLAB_MEMBER(c.physics.liquid_surface_tension), "Surface tension of capillary bridges."))));
+    add(in(angle, "deg",
+           within({0.0, 1.5707963267948966, false, true},
+                  key("physics.liquid_contact_angle", PELLETLAB_MEMBER(c.physics.liquid_contact_angle), "Contact angle of capillary bridges."))));
+    add(in(volume, "mm^3",
+           within(above(0), key("physics.liquid_bridge_volume", PELLETLAB_MEMBER(c.physics.liquid_bridge_volume), "Liquid in every capillary bridge."))));
+    add(in(density, "kg/m^3",
+           within(from(0), key("physics.air_density", PELLETLAB_MEMBER(c.physics.air_density), "Still air that drags at the pellets; 0: none."))));
+    add(in(acceleration, "m/s^2", key("physics.attraction", PELLETLAB_MEMBER(c.physics.attraction), "Uniform attraction beside gravity, per mass.")));
+    add(in(frequency, "Hz",
+           within(from(0), key("physics.vibration_frequency", PELLETLAB_MEMBER(c.physics.vibration_frequency), "Vibration of all walls; 0: none."))));
+    add(in(length, "mm", key("physics.vibration_amplitude", PELLETLAB_MEMBER(c.physics.vibration_amplitude), "Amplitude of that vibration, world axes.")));
+    add(key("physics.energy_book", PELLETLAB_MEMBER(c.physics.energy_book),
+            "Keep count of elastic energy and of what each mechanism dissipates (costs some speed)."));
+}
 
 std::vector<CaseKey> make_keys() {
     using namespace dimension;
@@ -133,8 +207,9 @@ std::vector<CaseKey> make_keys() {
                key("contacts.*.restitution", PELLETLAB_MEMBER(c.contacts.at(name).restitution), "Coefficient of restitution of a normal impact.")));
     add(within(from(0),
                key("contacts.*.sliding_friction", PELLETLAB_MEMBER(c.contacts.at(name).sliding_friction), "Coulomb's coefficient of sliding friction.")));
-    add(within(from(0), key("contacts.*.rolling_friction", PELLETLAB_MEMBER(c.contacts.at(name).rolling_friction),
-                            "Coefficient of the constant-torque rolling friction.")));
+    add(within(from(0), key("contacts.*.rolling_friction", PELLETLAB_MEMBER(c.contacts.at(name).rolling_friction), "Coefficient of rolling friction.")));
+    add_physics_of_contacts(add);
+    add_physics(add);
 
     add(in(length, "mm", within(above(0), key("tube.diameter", PELLETLAB_MEMBER(c.tube.diameter), "Inner diameter."))));
     add(in(length, "mm", within(from(0), key("tube.height", PELLETLAB_MEMBER(c.tube.height), "Height; 0: high enough for the pellets to be inserted."))));
@@ -198,7 +273,8 @@ std::vector<CaseSection> make_sections() {
          "ν = 0.25); a material of another name states all its keys."},
         {{"contacts", "*"},
          "Contact parameters of `pellet-pellet`, and of pellets with a wall: `pellet-<wall name>`, else `pellet-<material of the wall>`. "
-         "`pellet-pellet` and `pellet-vessel` have the defaults of run 12 in Table 4 of the same study; other rows state all their keys."},
+         "`pellet-pellet` and `pellet-vessel` have the defaults of run 12 in Table 4 of the same study; other rows state restitution and both frictions."},
+        {{"physics"}, "Laws of contact and forces on pellets; the defaults are the study's."},
         {{"tube"}, "Vertical tube: axis z, floor at z = 0."},
         {{"drum"}, "Horizontal drum: axis y, centre in the origin."},
         {{"insertion"}, "How pellets come into the rig."},

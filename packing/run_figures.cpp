@@ -1,5 +1,7 @@
 #include "packing/run_figures.hpp"
 
+#include "solver/time_step.hpp"
+
 namespace pelletlab::packing {
 
 void add_contact_figures(Observables& observables, const solver::Simulation& simulation, const RunMeter& meter) {
@@ -9,6 +11,10 @@ void add_contact_figures(Observables& observables, const solver::Simulation& sim
         observables.values.push_back({name, "1", value, not_known, window, method});
     };
     add("largest_overlap_ratio", meter.largest_overlap_ratio, {0.0, now}, "run.largest_overlap");
+    const solver::TimeStepAdvice advice = solver::advise_time_step(simulation.definition());
+    const double step = simulation.definition().time_step;
+    add("time_step_of_limit", step / advice.limit_at(meter.largest_overlap_ratio), {0.0, now}, "run.time_step");
+    add("time_step_of_rayleigh", step / advice.rayleigh, {0.0, now}, "run.time_step");
     add("touching_neighbours", 2.0 * static_cast<double>(contacts.touching_pairs) / pellets, {now, now}, "run.contacts");
     add("sphere_contacts_per_pellet", static_cast<double>(contacts.sphere_contacts) / pellets, {now, now}, "run.contacts");
     add("wall_contacts_per_pellet", static_cast<double>(contacts.wall_contacts) / pellets, {now, now}, "run.contacts");

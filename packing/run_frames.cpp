@@ -17,7 +17,31 @@ solver::ElasticMaterial elastic(const Material& material) {
 }
 
 solver::PairParameters pair(const ContactParameters& contact) {
-    return {contact.restitution, contact.sliding_friction, contact.rolling_friction};
+    return {contact.restitution,     contact.sliding_friction, contact.rolling_friction,        contact.kinetic_friction_ratio,
+            contact.relaxation_time, contact.attraction_force, contact.cohesion_energy_density, contact.work_of_adhesion};
+}
+
+/// Index of a word in the order of the solver's enumeration.
+template <class Choice>
+Choice choice(const std::string& key, const std::string& word, const std::vector<std::string>& words) {
+    for (std::size_t k = 0; k < words.size(); ++k)
+        if (words[k] == word) return static_cast<Choice>(k);
+    throw bad_input("physics." + key + " = \"" + word + "\" is not known", "see docs/case-reference.md");
+}
+
+solver::Physics physics_of(const PhysicsChoice& p) {
+    solver::Physics physics;
+    physics.contact = choice<solver::ContactModel>("contact_model", p.contact_model, {"hertz_edem", "hertz_impulse_exact", "linear", "viscoelastic"});
+    physics.rolling = choice<solver::RollingModel>("rolling_model", p.rolling_model, {"constant_torque", "viscous", "elastic_plastic"});
+    physics.cohesion = choice<solver::Cohesion>("cohesion", p.cohesion, {"none", "constant_force", "sjkr", "jkr", "capillary"});
+    physics.clump_contacts = choice<solver::ClumpPolicy>("clump_contacts", p.clump_contacts, {"sum", "shared"});
+    physics.linear_stiffness = p.linear_stiffness;
+    physics.rolling_damping = p.rolling_damping;
+    physics.rolling_damping_sliding = p.rolling_damping_sliding;
+    physics.friction_decay_speed = p.friction_decay_speed;
+    physics.liquid = {p.liquid_surface_tension, p.liquid_contact_angle, p.liquid_bridge_volume};
+    physics.energy_book = p.energy_book;
+    return physics;
 }
 
 }  // namespace
@@ -39,6 +63,9 @@ solver::SimulationDefinition define_simulation(const Case& c, const RunInputs& i
     definition.walls = std::move(walls);
     definition.gravity = c.gravity;
     definition.time_step = c.time.step;
+    definition.physics = physics_of(c.physics);
+    definition.body_forces.air.density = c.physics.air_density;
+    definition.body_forces.attraction = c.physics.attraction;
     return definition;
 }
 
@@ -53,6 +80,8 @@ solver::WallDefinition define_wall(const Case& c, std::string name, TriangleMesh
     wall.mesh = std::move(mesh);
     wall.material = elastic(material_of(c, material));
     wall.contact = pair(contact->second);
+    wall.motion.frequency = c.physics.vibration_frequency;
+    wall.motion.oscillation = c.physics.vibration_amplitude;
     return wall;
 }
 

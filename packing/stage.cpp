@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "packing/energy_watch.hpp"
 
 namespace pelletlab::packing {
 
@@ -102,6 +103,7 @@ StageEnd Course::run(Stage& stage) {
         if (done >= total) throw bad_input("the checkpoint lies behind the end of its stage", "start the run again with --force", {"checkpoint"});
     }
     Reporter reporter(stage, simulation_, progress_, done);
+    EnergyWatch energy(simulation_);
     StageEnd end = StageEnd::time_is_up;
     bool stored = done == 0 || (frame_every > 0 && done % frame_every == 0);  // whatever there was before the stage has been stored by its owner
     while (done < total && end == StageEnd::time_is_up) {
@@ -115,7 +117,9 @@ StageEnd Course::run(Stage& stage) {
         done += batch;
         stored = false;
         if (watch_every > 0 && done % watch_every == 0) {
-            meter.largest_overlap_ratio = std::max(meter.largest_overlap_ratio, simulation_.contacts().largest_overlap_ratio);
+            const double overlap = simulation_.contacts().largest_overlap_ratio;
+            meter.largest_overlap_ratio = std::max(meter.largest_overlap_ratio, overlap);
+            energy.look(simulation_, overlap);
             if (stage.watch && stage.watch(simulation_, stage.memory)) end = StageEnd::watch_ended_it;
         }
         if (frame_every > 0 && done % frame_every == 0) {

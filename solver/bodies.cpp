@@ -45,6 +45,7 @@ BodyTemplate make_body_template(const RigidTemplate& rigid) {
     t.inverse_inertia = t.inertia.cwiseInverse();
     t.smallest_inertia = t.inertia.minCoeff();
     t.density = m.density > 0.0 ? m.density : (m.volume > 0.0 ? m.mass / m.volume : 0.0);
+    t.equivalent_diameter = std::cbrt(6.0 / M_PI * m.volume);
     choose_axes(t);
     return t;
 }

@@ -115,7 +115,7 @@ struct SavedSpring {
 struct SavedHistory {
     std::uint32_t body, sphere, patch;
     Vec3 normal, spring, torque;
-    double broken;
+    double last_overlap;
 };
 
 /// Everything of a checkpoint, read and checked before the simulation is touched.
@@ -128,10 +128,28 @@ struct Saved {
         std::uint64_t motion_start = 0;
         Pose start_pose;
         WallLoad load;
+        double work = 0.0;
         std::vector<SavedHistory> history;
     };
     std::vector<SavedWall> walls;
+    std::array<double, 9> book{};  ///< stored, gone, work of body forces
 };
+
+void put_motion_extras(Writer& w, const WallMotion& m) {
+    w.put(m.oscillation), w.put(m.swing), w.put(m.frequency), w.put(m.phase);
+    w.put(static_cast<std::uint64_t>(m.table.size()));
+    for (const MotionRow& row : m.table) w.put(row.time), w.put(row.shift), w.put(row.angle);
+}
+
+void get_motion_extras(Reader& r, WallMotion& m) {
+    m.oscillation = r.get_vec(), m.swing = r.get_number(), m.frequency = r.get_number(), m.phase = r.get_number();
+    const std::size_t rows = r.get_count(5 * sizeof(double));
+    for (std::size_t k = 0; k < rows; ++k) {
+        MotionRow row;
+        row.time = r.get_number(), row.shift = r.get_vec(), row.angle = r.get_number();
+        m.table.push_back(row);
+    }
+}
 
 std::string payload_of(const Simulation::State& s) {
     Writer w;
@@ -153,13 +171,16 @@ std::string payload_of(const Simulation::State& s) {
     });
     w.put(static_cast<std::uint64_t>(springs.size()));
     for (const SavedSpring& spring : springs) w.put(spring);
+    w.put(s.book.stored), w.put(s.book.gone), w.put(s.book.body_force_work);
     w.put(static_cast<std::uint64_t>(s.walls.size()));
     for (std::size_t k = 0; k < s.walls.size(); ++k) {
         const detail::Wall& wall = s.walls[k];
         w.put(wall.motion.point), w.put(wall.motion.axis), w.put(wall.motion.rotation_speed), w.put(wall.motion.velocity);
+        put_motion_extras(w, wall.motion);
         w.put(wall.motion_start);
         w.put(wall.start_pose.position), w.put(wall.start_pose.orientation);
-        w.put(s.wall_loads[k].force), w.put(s.wall_loads[k].torque);
+        w.put(s.wall_loads[k].force), w.put(s.wall_loads[k].torque), w.put(s.wall_loads[k].power);
+        w.put(s.book.wall_work[k]);
         std::uint64_t count = 0;
         for (const detail::WallWatch& watch : wall.watches) count += watch.near ? watch.near->history.size() : 0;
         w.put(count);
@@ -168,7 +189,7 @@ std::string payload_of(const Simulation::State& s) {
             if (!wall.watches[i].near) continue;
             for (const detail::WallHistory& h : wall.watches[i].near->history) {
                 w.put(id), w.put(h.sphere), w.put(h.patch);
-                w.put(h.normal), w.put(h.spring), w.put(h.torque), w.put(h.broken);
+                w.put(h.normal), w.put(h.spring), w.put(h.torque), w.put(h.last_overlap);
             }
         }
     }
@@ -198,19 +219,22 @@ Saved read_payload(std::string_view bytes, const std::string& file, const Simula
         for (const double x : spring.spring)
             if (!std::isfinite(x)) r.broken();
     }
+    saved.book = r.get<std::array<double, 9>>();
     const auto wall_count = r.get<std::uint64_t>();
     if (wall_count != s.walls.size()) r.broken();
     for (const detail::Wall& wall : s.walls) {
         Saved::SavedWall w;
         w.motion.point = r.get_vec(), w.motion.axis = r.get_vec(), w.motion.rotation_speed = r.get_number(), w.motion.velocity = r.get_vec();
+        get_motion_extras(r, w.motion);
         w.motion_start = r.get<std::uint64_t>();
         if (w.motion_start > saved.steps) r.broken();
         w.start_pose.position = r.get_vec(), w.start_pose.orientation = r.get_quat();
-        w.load.force = r.get_vec(), w.load.torque = r.get_vec();
+        w.load.force = r.get_vec(), w.load.torque = r.get_vec(), w.load.power = r.get_number();
+        w.work = r.get_number();
         const std::size_t count = r.get_count(12);
         for (std::size_t k = 0; k < count; ++k) {
             SavedHistory h{r.get<std::uint32_t>(), r.get<std::uint32_t>(), r.get<std::uint32_t>(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0.0};
-            h.normal = r.get_vec(), h.spring = r.get_vec(), h.torque = r.get_vec(), h.broken = r.get_number();
+            h.normal = r.get_vec(), h.spring = r.get_vec(), h.torque = r.get_vec(), h.last_overlap = r.get_number();
             if (h.body >= n || h.sphere >= s.templates[saved.bodies.template_of(h.body)].balls.size() || h.patch >= wall.mesh.patch_count) r.broken();
             w.history.push_back(h);
         }
@@ -246,7 +270,7 @@ bool install_springs(Simulation::State& s, const Saved& saved) {
         for (const SavedHistory& h : saved.walls[k].history) {
             detail::WallWatch& watch = s.walls[k].watches[s.bodies.place_of(h.body)];
             if (!watch.near) watch.near = std::make_unique<detail::NearWall>();
-            watch.near->history.push_back({h.sphere, h.patch, h.normal, h.spring, h.torque, h.broken});
+            watch.near->history.push_back({h.sphere, h.patch, h.normal, h.spring, h.torque, h.last_overlap});
         }
     return next == saved.springs.size();
 }
@@ -254,6 +278,9 @@ bool install_springs(Simulation::State& s, const Saved& saved) {
 /// Makes the simulation what was saved. False when it contradicts itself.
 bool put_in_place(Simulation::State& s, const Saved& saved) {
     s.steps = saved.steps;
+    std::copy_n(saved.book.begin(), 3, s.book.stored.begin());
+    std::copy_n(saved.book.begin() + 3, 5, s.book.gone.begin());
+    s.book.body_force_work = saved.book[8];
     s.bodies = saved.bodies;
     for (std::size_t k = 0; k < s.walls.size(); ++k) {
         detail::Wall& wall = s.walls[k];
@@ -263,6 +290,7 @@ bool put_in_place(Simulation::State& s, const Saved& saved) {
         wall.watches.clear();
         detail::move_wall(wall, s.steps, s.definition.time_step);
         s.wall_loads[k] = saved.walls[k].load;
+        s.book.wall_work[k] = saved.walls[k].work;
     }
     detail::PairList fresh;
     fresh.skin = s.pairs.skin, fresh.smallest_skin = s.pairs.smallest_skin, fresh.largest_skin = s.pairs.largest_skin, fresh.rebuilt_at = s.steps,
@@ -369,8 +397,12 @@ std::uint64_t fingerprint(const SimulationDefinition& d) {
         add_material(w.material);
         add_contact(w.contact);
         hash.add(w.feature_angle);
+        hash.add(static_cast<std::uint64_t>(w.exact.kind));
+        hash.add(w.exact.point), hash.add(w.exact.axis), hash.add(w.exact.half_size);
+        for (const double x : {w.exact.start.x(), w.exact.start.y(), w.exact.end.x(), w.exact.end.y()}) hash.add(x);
     }
     hash.add(d.gravity);
+    hash.add(d.body_forces.air.density), hash.add(d.body_forces.air.viscosity), hash.add(d.body_forces.attraction);
     hash.add(d.time_step);
     return hash.value();
 }

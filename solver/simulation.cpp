@@ -34,14 +34,10 @@ void check_template(const RigidTemplate& t) {
             throw bad_input(what + " has moments of inertia that no body can have: one is larger than the sum of the others", "make the template again");
 }
 
-void check_motion(const WallMotion& m, const std::string& wall) {
-    if (!m.point.allFinite() || !m.velocity.allFinite() || !std::isfinite(m.rotation_speed) || !(std::abs(m.axis.norm() - 1.0) < 1e-9))
-        throw bad_input("wall «" + wall + "»: its motion needs finite numbers and an axis of length 1", "correct the motion of the wall");
-}
-
 Box default_domain(const SimulationDefinition& d) {
     Box box;
-    for (const WallDefinition& wall : d.walls) box.extend(bounding_box(wall.mesh));
+    for (const WallDefinition& wall : d.walls)
+        if (!wall.mesh.vertices.empty()) box.extend(bounding_box(wall.mesh));
     if (box.isEmpty()) return {Vec3::Constant(-1e100), Vec3::Constant(1e100)};
     const Vec3 margin = Vec3::Constant(box.diagonal().norm());
     return {box.min() - margin, box.max() + margin};
@@ -78,6 +74,22 @@ std::string percent(double share) {
     return text.str();
 }
 
+/// Speed bound [m/s] of the wall's surface over its whole motion.
+double fastest_surface(const detail::Wall& wall, const WallMotion& m) {
+    double reach = 0.0;  // furthest vertex from the axis; surfaces in closed form are judged by their centre
+    for (const Vec3& v : wall.mesh.vertices) reach = std::max(reach, (wall.pose.to_world(v) - m.point).cross(m.axis).norm());
+    const double omega = 2.0 * M_PI * m.frequency;
+    double shift = m.velocity.norm() + omega * m.oscillation.norm(), turn = std::abs(m.rotation_speed) + omega * std::abs(m.swing);
+    double steepest_shift = 0.0, steepest_turn = 0.0;
+    for (std::size_t k = 1; k < m.table.size(); ++k) {
+        const double time = m.table[k].time - m.table[k - 1].time;
+        steepest_shift = std::max(steepest_shift, (m.table[k].shift - m.table[k - 1].shift).norm() / time);
+        steepest_turn = std::max(steepest_turn, std::abs(m.table[k].angle - m.table[k - 1].angle) / time);
+    }
+    shift += 1.5 * steepest_shift, turn += 1.5 * steepest_turn;  // a cubic between rows is at most that much steeper than its secant
+    return shift + turn * reach;
+}
+
 std::string place(const Vec3& p) {
     std::ostringstream text;
     text << "(" << p.x() << ", " << p.y() << ", " << p.z() << ") m";
@@ -86,10 +98,9 @@ std::string place(const Vec3& p) {
 
 /// A wall that moves further than the smallest sphere's radius in one step passes through the bodies that it should push.
 void check_pace(const Simulation::State& s, const detail::Wall& wall, const WallMotion& motion) {
-    double reach = 0.0, smallest = std::numeric_limits<double>::infinity();
-    for (const Vec3& v : wall.mesh.vertices) reach = std::max(reach, (wall.pose.to_world(v) - motion.point).cross(motion.axis).norm());
+    double smallest = std::numeric_limits<double>::infinity();
     for (const detail::BodyTemplate& t : s.templates) smallest = std::min(smallest, t.smallest_radius);
-    const double jump = (motion.velocity.norm() + std::abs(motion.rotation_speed) * reach) * s.definition.time_step;
+    const double jump = fastest_surface(wall, motion) * s.definition.time_step;
     if (jump <= smallest) return;
     std::ostringstream text;
     text << "wall «" << wall.name << "» jumps: from time " << s.time() << " s on it moves by up to " << jump << " m in a step of " << s.definition.time_step
@@ -115,6 +126,7 @@ Simulation::State::State(SimulationDefinition given) : definition(std::move(give
         check_motion(w.motion, w.name);
     }
     detail::check_physics(d.physics);
+    detail::check_body_forces(d.body_forces);
     const TimeStepAdvice advice = advise_time_step(d);
     if (d.time_step > advice.contact_limit) {
         std::ostringstream text;
@@ -152,6 +164,7 @@ Simulation::State::State(SimulationDefinition given) : definition(std::move(give
     }
     for (const detail::Wall& wall : walls) check_pace(*this, wall, wall.motion);
     wall_loads.resize(walls.size());
+    book.wall_work.resize(walls.size(), 0.0);
     domain = d.domain.isEmpty() ? default_domain(d) : d.domain;
     fit_to_body_count();
 }
@@ -389,20 +402,6 @@ ContactSummary Simulation::contacts() const {
     return sum;
 }
 
-EnergyReport Simulation::energy() const {
-    const State& s = *state_;
-    EnergyReport e;
-    for (std::size_t id = 0; id < s.bodies.size(); ++id) {
-        const std::size_t i = s.bodies.place_of(id);
-        const detail::BodyTemplate& t = s.templates[s.bodies.template_of(i)];
-        const Vec3 l = s.bodies.angular_momentum(i);
-        e.kinetic_translation += 0.5 * t.mass * s.bodies.velocity(i).squaredNorm();
-        e.kinetic_rotation += 0.5 * l.dot(detail::spin_of(t, s.bodies.orientation(i), l));
-        e.gravity -= t.mass * s.definition.gravity.dot(s.bodies.position(i));
-    }
-    return e;
-}
-
 std::uint64_t Simulation::state_hash() const {
     const State& s = *state_;
     detail::Hash hash;
@@ -427,7 +426,9 @@ std::uint64_t Simulation::state_hash() const {
         hash.add(wall.motion.point);
         hash.add(wall.motion.axis);
         hash.add(wall.motion.rotation_speed);
-        hash.add(wall.motion.velocity);
+        hash.add(wall.motion.velocity), hash.add(wall.motion.oscillation);
+        for (const double x : {wall.motion.swing, wall.motion.frequency, wall.motion.phase}) hash.add(x);
+        for (const MotionRow& row : wall.motion.table) hash.add(row.time), hash.add(row.shift), hash.add(row.angle);
         for (std::size_t id = 0; id < wall.watches.size(); ++id) {
             const std::size_t i = s.bodies.place_of(id);
             if (!wall.watches[i].near) continue;
@@ -437,7 +438,7 @@ std::uint64_t Simulation::state_hash() const {
                 hash.add(h.normal);
                 hash.add(h.spring);
                 hash.add(h.torque);
-                hash.add(h.broken);
+                hash.add(h.last_overlap);
             }
         }
     }

@@ -15,7 +15,11 @@
 #include "core/rigid_template.hpp"
 #include "core/triangle_mesh.hpp"
 #include "core/vec.hpp"
+#include "solver/body_forces.hpp"
+#include "solver/energy_book.hpp"
+#include "solver/exact_surface.hpp"
 #include "solver/physics.hpp"
+#include "solver/wall_motion.hpp"
 #include "solver/wall_report.hpp"
 
 namespace pelletlab::solver {
@@ -38,17 +42,10 @@ struct PairParameters {
     double work_of_adhesion = 0.0;         ///< [J/m²], of Cohesion::jkr: twice the surface energy of equal materials
 };
 
-/// Rigid rotation of a wall about a fixed axis, starting when the simulation is told to (Simulation::set_wall_motion).
-struct WallMotion {
-    Vec3 point = Vec3::Zero();     ///< [m], on the axis
-    Vec3 axis = {0.0, 1.0, 0.0};   ///< unit
-    double rotation_speed = 0.0;   ///< [rad/s], right-handed about the axis
-    Vec3 velocity = Vec3::Zero();  ///< [m/s], translation added to it
-};
-
 struct WallDefinition {
     std::string name;
-    TriangleMesh mesh;  ///< world frame at time 0; normals play no role, both sides act
+    TriangleMesh mesh;   ///< world frame at time 0; normals play no role, both sides act
+    ExactSurface exact;  ///< takes the mesh's place in contacts unless its kind is `none`; the mesh may then be empty
     ElasticMaterial material;
     PairParameters contact;  ///< with the pellets
     WallMotion motion;
@@ -77,6 +74,7 @@ struct SimulationDefinition {
     SearchSkins skins;
     InstructionSet instructions = InstructionSet::fastest;
     Physics physics;
+    BodyForces body_forces;
 };
 
 struct BodyPlacement {
@@ -100,7 +98,8 @@ struct BodyState {
 
 struct WallLoad {
     Vec3 force = Vec3::Zero();   ///< [N], on the wall
-    Vec3 torque = Vec3::Zero();  ///< [N m], on the wall, about motion.point
+    Vec3 torque = Vec3::Zero();  ///< [N m], on the wall, about motion.point, shifted with the wall
+    double power = 0.0;          ///< [W], that the wall's motion gives to the bodies: −(force · velocity of that point + torque · spin)
 };
 
 struct ContactSummary {
@@ -118,10 +117,6 @@ struct ContactPoint {
     Vec3 normal = Vec3::UnitZ();             ///< from i to j; with a wall: from the wall to the body
     double overlap = 0.0;                    ///< [m]
     Vec3 spring = Vec3::Zero();              ///< [m], tangential displacement, world
-};
-
-struct EnergyReport {
-    double kinetic_translation = 0.0, kinetic_rotation = 0.0, gravity = 0.0;  ///< [J]
 };
 
 /// What the neighbour search holds at present: for tuning and reports.

@@ -46,9 +46,12 @@ void Simulation::step() {
     s.compute_pair_forces(clock);
     watch.lap(3);
     s.compute_wall_forces(clock);
+    s.compute_body_forces();
     watch.lap(4);
     s.gather_forces_and_kick(0.5 * s.definition.time_step);
     s.sum_wall_loads();
+    s.book_contacts();
+    s.book_work();
     watch.lap(5);
 }
 
@@ -133,9 +136,10 @@ void Simulation::State::gather_forces_and_kick(double kick) {
     std::vector<const detail::LoadRow*> wall_rows;
     std::vector<const std::uint8_t*> wall_flags;
     for (const detail::Wall& wall : walls) wall_rows.push_back(wall.loads.data()), wall_flags.push_back(wall.touching.data());
+    if (!body_loads.empty()) wall_rows.push_back(body_loads.data()), wall_flags.push_back(body_loads_act.data());
     const Vec3& g = definition.gravity;
     const detail::GatherView loads{pairs.incoming_first.data(), pairs.incoming.data(), pairs.loads_j.data(), pairs.own_loads.data(), pairs.touching.data(),
-                                   pairs.own_touching.data(),   walls.size(),          wall_rows.data(),     wall_flags.data(),      {g.x(), g.y(), g.z()}};
+                                   pairs.own_touching.data(),   wall_rows.size(),      wall_rows.data(),     wall_flags.data(),      {g.x(), g.y(), g.z()}};
     const detail::BodyArrays arrays = bodies.arrays(constants.data(), kinematics.data());
     parallel_blocks(bodies.size(), body_grain,
                     [&](std::size_t begin, std::size_t end) { kernels->gather(arrays, loads, begin, detail::padded_count(end), kick); });
@@ -144,9 +148,7 @@ void Simulation::State::gather_forces_and_kick(double kick) {
 void Simulation::State::sum_wall_loads() {
     for (std::size_t w = 0; w < walls.size(); ++w) {
         const detail::Wall& wall = walls[w];
-        // The point on the axis moves with the translation.
-        const double since = static_cast<double>(steps - wall.motion_start) * definition.time_step;
-        const Vec3 point = wall.motion.point + wall.motion.velocity * since;
+        const Vec3 point = wall.motion.point + wall.place.shift;  // the point on the axis moves with the translation
         wall_loads[w] = parallel_reduce(
             bodies.size(), 4 * body_grain, WallLoad{},
             [&](std::size_t begin, std::size_t end) {
@@ -162,8 +164,9 @@ void Simulation::State::sum_wall_loads() {
                 return part;
             },
             [](const WallLoad& a, const WallLoad& b) {
-                return WallLoad{a.force + b.force, a.torque + b.torque};
+                return WallLoad{a.force + b.force, a.torque + b.torque, 0.0};
             });
+        wall_loads[w].power = -(wall_loads[w].force.dot(wall.place.velocity) + wall_loads[w].torque.dot(wall.motion.axis) * wall.place.angular_speed);
     }
 }
 
@@ -172,6 +175,7 @@ void Simulation::State::look_at_forces() {
     const detail::StepClock clock{0.0, definition.time_step, static_cast<std::uint32_t>(steps)};
     compute_pair_forces(clock);
     compute_wall_forces(clock);
+    compute_body_forces();
     gather_forces_and_kick(0.0);
     sum_wall_loads();
     view_is_current = false;

@@ -49,6 +49,18 @@ Quat quat(const double a[4]) {
 /// Looks up the faces near the bounding sphere. Looks further than is needed now: a body far from the wall is then left alone for longer.
 void watch_anew(const Wall& wall, WallWatch& watch, const RelativePose& pose, double bounding_radius, double skin, std::vector<std::uint32_t>& faces) {
     const Vec3 centre = vec(pose.p);
+    for (int k = 0; k < 3; ++k) watch.place[k] = pose.p[k];
+    if (wall.is_exact()) {
+        const double gap = distance_to(wall.exact, centre) - bounding_radius;
+        watch.allowance = 0.999999 * (gap > skin ? gap : skin);
+        if (gap > skin) {
+            watch.near.reset();
+        } else {
+            if (!watch.near) watch.near = std::make_unique<NearWall>();
+            watch.near->allowance = -1.0;
+        }
+        return;
+    }
     wall.query.faces_near(wall.mesh, centre, bounding_radius + 4.0 * skin, faces);
     double nearest = bounding_radius + 4.0 * skin;
     const auto too_far = [&](std::uint32_t f) {
@@ -57,7 +69,6 @@ void watch_anew(const Wall& wall, WallWatch& watch, const RelativePose& pose, do
         return distance > bounding_radius + skin;
     };
     faces.erase(std::remove_if(faces.begin(), faces.end(), too_far), faces.end());
-    for (int k = 0; k < 3; ++k) watch.place[k] = pose.p[k];
     watch.allowance = 0.999999 * (faces.empty() ? nearest - bounding_radius : skin);
     if (faces.empty()) {
         watch.near.reset();
@@ -85,6 +96,15 @@ void refresh(const Wall& wall, NearWall& near, const RelativePose& pose, const B
     for (std::size_t a = 0; a < t.balls.size(); ++a) {
         const auto& ball = t.balls[a];
         const Vec3 c = r * Vec3(ball.x, ball.y, ball.z) + p;
+        if (wall.is_exact()) {
+            const double gap = distance_to(wall.exact, c) - ball.r;
+            if (gap < std::max(near.skin, 1.01 * wall.law.reach)) {
+                near.candidates.push_back({static_cast<std::uint32_t>(a), 0});
+            } else {
+                nearest_other = std::min(nearest_other, gap);
+            }
+            continue;
+        }
         for (const std::uint32_t f : near.faces) {
             // The plane of the face bounds the distance from below, cheaply.
             const double height = std::abs(wall.mesh.normals[f].dot(c - wall.mesh.corner(f, 0)));
@@ -139,17 +159,23 @@ WallHistory inherited(const std::vector<WallHistory>& history, std::vector<std::
             const WallHistory& old = history[choice];
             fresh.spring = turned(old.spring, old.normal, normal);
             fresh.torque = turned(old.torque, old.normal, normal);
-            fresh.broken = old.broken;
+            fresh.last_overlap = old.last_overlap;
             return fresh;
         }
     }
     return fresh;
 }
 
+/// From the wall to the sphere's centre; where that lies on the wall, the wall's own normal.
+Vec3 normal_of(const Wall& wall, const Hit& hit, const Vec3& centre, double distance) {
+    if (distance > 0.0) return (centre - hit.point) / distance;
+    return wall.is_exact() ? wall.exact.axis : wall.mesh.normals[hit.face];
+}
+
 void add_contact(const Wall& wall, const NearWall& near, std::uint32_t sphere, const Ball& ball, const Vec3& c, const Hit& hit, Scratch& s) {
     const double distance = std::sqrt(hit.distance2);
-    const Vec3 normal = distance > 0.0 ? Vec3((c - hit.point) / distance) : wall.mesh.normals[hit.face];
-    const std::uint32_t patch = wall.mesh.patch[hit.face];
+    const Vec3 normal = normal_of(wall, hit, c, distance);
+    const std::uint32_t patch = wall.patch_of(hit);
     const WallHistory history = inherited(near.history, s.used, s.cursor, sphere, patch, normal);
     ContactBatch& b = s.storage.batch;
     const std::size_t n = b.size++;
@@ -160,7 +186,7 @@ void add_contact(const Wall& wall, const NearWall& near, std::uint32_t sphere, c
     b.slot[n] = static_cast<std::uint32_t>(s.slots.size());
     b.spring[n] = static_cast<std::uint32_t>(n);
     s.fresh.push_back(history);
-    s.springs.push_back({{history.spring.x(), history.spring.y(), history.spring.z(), history.broken}});
+    s.springs.push_back({{history.spring.x(), history.spring.y(), history.spring.z(), history.last_overlap}});
     if (wall.spring_rows > 1) s.springs.push_back({{history.torque.x(), history.torque.y(), history.torque.z(), 0.0}});
 }
 
@@ -188,7 +214,7 @@ bool collect(const Wall& wall, const NearWall& near, const RelativePose& pose, c
     const Mat3 r = rotation_of(pose);
     const Vec3 p = vec(pose.p);
     const std::size_t before = s.storage.batch.size;
-    s.storage.reserve(before + near.candidates.size(), wall.law.booked);
+    s.storage.reserve(before + near.candidates.size() * (wall.is_exact() ? exact_patches : 1), wall.law.booked);
     s.used.assign(near.history.size(), 0);
     s.cursor = 0;
     for (std::size_t k = 0; k < near.candidates.size();) {
@@ -197,6 +223,12 @@ bool collect(const Wall& wall, const NearWall& near, const RelativePose& pose, c
         const Vec3 c = r * Vec3(ball.x, ball.y, ball.z) + p;
         s.hits.clear();
         const double reach = ball.r + (wall.law.reach > 0.0 && has_touched(near.history, sphere) ? wall.law.reach : 0.0);
+        if (wall.is_exact()) {
+            ++k;
+            exact_hits(wall.exact, c, reach, s.hits);
+            for (const Hit& hit : s.hits) add_contact(wall, near, sphere, ball, c, hit, s);
+            continue;
+        }
         for (; k < near.candidates.size() && near.candidates[k].sphere == sphere; ++k) {
             Hit hit;
             if (touches(wall.mesh, near.candidates[k].face, c, reach, hit)) s.hits.push_back(hit);
@@ -233,23 +265,41 @@ bool moved_away(const WallWatch& watch, const Matrix3& frame, const Kinematic& w
     return !(watch.allowance >= 0.0 && moved <= watch.allowance * watch.allowance);
 }
 
+/// The mesh that an exact wall carries along: the one it was given, or one triangle.
+WallMesh stand_in_for(const WallDefinition& d) {
+    check_surface(d.exact, d.name);
+    const Vec3 p = d.exact.point, u = d.exact.axis.unitOrthogonal();
+    TriangleMesh triangle;
+    triangle.vertices = {p, p + u, p + d.exact.axis.cross(u)};
+    triangle.faces = {{0, 1, 2}};
+    WallMesh mesh = make_wall_mesh(d.mesh.faces.empty() ? triangle : d.mesh, d.feature_angle, d.name);
+    mesh.patch_count = exact_patches;
+    return mesh;
+}
+
 }  // namespace
 
 Wall::Wall(const WallDefinition& d, const LawRow& row, ContactKernel kernel, std::size_t rows)
-    : name(d.name), mesh(make_wall_mesh(d.mesh, d.feature_angle, d.name)), query(mesh), law(row), contact(kernel), spring_rows(rows), motion(d.motion) {
+    : name(d.name),
+      mesh(d.exact.kind == ExactSurface::Kind::none ? make_wall_mesh(d.mesh, d.feature_angle, d.name) : stand_in_for(d)),
+      query(mesh),
+      law(row),
+      contact(kernel),
+      spring_rows(rows),
+      exact(d.exact),
+      motion(d.motion) {
     law.wall = true;
     move_wall(*this, 0, 0.0);
 }
 
 void move_wall(Wall& wall, std::uint64_t step, double dt) {
-    const double t = static_cast<double>(step - wall.motion_start) * dt;
-    const Vec3 axis = wall.motion.axis;
-    const Quat turn(Eigen::AngleAxisd(wall.motion.rotation_speed * t, axis));
-    const Vec3 shift = wall.motion.velocity * t;
+    wall.place = place_at(wall.motion, static_cast<double>(step - wall.motion_start) * dt);
+    const Quat turn(Eigen::AngleAxisd(wall.place.angle, wall.motion.axis));
+    const Vec3 point = wall.motion.point;
     wall.pose.orientation = (turn * wall.start_pose.orientation).normalized();
-    wall.pose.position = wall.motion.point + turn * (wall.start_pose.position - wall.motion.point) + shift;
-    const Vec3 spin = axis * wall.motion.rotation_speed;
-    const Vec3 v = wall.motion.velocity + spin.cross(wall.pose.position - (wall.motion.point + shift));
+    wall.pose.position = point + turn * (wall.start_pose.position - point) + wall.place.shift;
+    const Vec3 spin = wall.motion.axis * wall.place.angular_speed;
+    const Vec3 v = wall.place.velocity + spin.cross(wall.pose.position - (point + wall.place.shift));
     for (int k = 0; k < 3; ++k) {
         wall.record.position()[k] = wall.pose.position[k];
         wall.record.velocity()[k] = v[k];
@@ -319,7 +369,7 @@ void wall_contact_forces(Wall& wall, std::size_t block, std::size_t begin, std::
                 WallHistory& kept = history[c - active.first_contact];
                 const Spring* rows = &s.springs[c * wall.spring_rows];
                 kept.spring = vec(rows[0].row);
-                kept.broken = rows[0].row[3];
+                kept.last_overlap = rows[0].row[3];
                 if (wall.spring_rows > 1) kept.torque = vec(rows[1].row);
             }
         }
@@ -334,8 +384,12 @@ void wall_overlaps(const Wall& wall, const Kinematic& body, const BodyTemplate& 
     std::vector<std::uint32_t> faces;
     std::vector<Hit> hits;
     const RelativePose pose = relative_pose(wall.record, body);
-    wall.query.faces_near(wall.mesh, vec(pose.p), t.bounding_radius, faces);
-    if (faces.empty()) return;
+    if (wall.is_exact()) {
+        if (distance_to(wall.exact, vec(pose.p)) > t.bounding_radius) return;
+    } else {
+        wall.query.faces_near(wall.mesh, vec(pose.p), t.bounding_radius, faces);
+        if (faces.empty()) return;
+    }
     const Mat3 r = rotation_of(pose);
     for (std::uint32_t a = 0; a < t.balls.size(); ++a) {
         const auto& ball = t.balls[a];
@@ -345,11 +399,13 @@ void wall_overlaps(const Wall& wall, const Kinematic& body, const BodyTemplate& 
             const Hit hit = closest_point(wall.mesh, f, c);
             if (hit.distance2 < ball.r * ball.r) hits.push_back(hit);
         }
-        keep_contacts(wall.mesh, c, ball.r, hits);
+        if (wall.is_exact())
+            exact_hits(wall.exact, c, ball.r, hits);
+        else
+            keep_contacts(wall.mesh, c, ball.r, hits);
         for (const Hit& hit : hits) {
             const double distance = std::sqrt(hit.distance2);
-            const Vec3 normal = distance > 0.0 ? Vec3((c - hit.point) / distance) : wall.mesh.normals[hit.face];
-            overlaps.push_back({a, wall.mesh.patch[hit.face], normal, ball.r - distance});
+            overlaps.push_back({a, wall.patch_of(hit), normal_of(wall, hit, c, distance), ball.r - distance});
         }
     }
 }

@@ -40,6 +40,7 @@ struct CaseKey {
     std::string unit;  ///< printed with the value; empty for plain numbers
     Range range;
     std::vector<std::string> choices;                                    ///< of KeyKind::choice
+    bool optional = false;                                               ///< a material or contact of any name may leave it out
     std::string doc;                                                     ///< one line
     std::function<CaseValue(const Case&, const std::string& name)> get;  ///< `name` fills the «*»
     std::function<void(Case&, const std::string& name, const CaseValue&)> set;

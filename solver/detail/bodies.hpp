@@ -20,6 +20,7 @@ struct BodyTemplate {
     double bounding_radius = 0.0;                        ///< [m], about the centre of mass
     double largest_offset = 0.0;                         ///< [m], of a sphere centre from the centre of mass
     double smallest_radius = 0.0, largest_radius = 0.0;  ///< [m], of its spheres
+    double equivalent_diameter = 0.0;                    ///< [m], of the sphere of the body's volume
     double density = 0.0;                                ///< [kg/m³], for the Rayleigh step
     // Free rotation: see motion.hpp.
     Vec3 axis = Vec3::UnitZ();         ///< symmetry axis (the two other moments are the closest)

@@ -38,12 +38,12 @@ struct HistoryRows {
 
 /// What the contacts store and dissipate; see BookColumn. `spring` and `torque` are those of the last step, carried to this one.
 template <class Law, class L, class V = typename L::Real>
-inline void book_contacts(const LawRow& law, const ContactState<V>& c, const NormalForce<V>& normal, const ContactResult<V>& result, const V& cohesion,
-                          const Triple<V>& tangential_velocity, const V& tangential_stiffness, const Triple<V>& old_spring, const Triple<V>& trial,
-                          const V& old_torque2, const RollingResult<V>& rolling, double step, double* const* targets) {
+inline void book_contacts(const ContactState<V>& c, const NormalForce<V>& normal, const ContactResult<V>& result, const V& cohesion,
+                          const Triple<V>& tangential_velocity, const V& tangential_stiffness, const Triple<V>& old_spring, const V& last_overlap,
+                          const Triple<V>& trial, const V& old_torque2, const RollingResult<V>& rolling, double step, double* const* targets) {
     const V zero = L::all(0.0), half = L::all(0.5), dt = L::all(step);
     const V overlap = L::larger(c.overlap, zero), normal_speed = dot(c.velocity, c.normal);
-    const V ratio = stiffness_ratio<Law, L>(overlap, normal_speed, step);
+    const V ratio = stiffness_ratio<Law, L>(overlap, last_overlap);
     const V stored = half * tangential_stiffness * dot(result.spring, result.spring);
     // The spring before this step's growth, at the present stiffness, and how its energy came to be that.
     const Triple<V> before = trial - tangential_velocity * dt;
@@ -65,7 +65,6 @@ inline void book_contacts(const LawRow& law, const ContactState<V>& c, const Nor
     const V normal_lost = (normal.elastic - normal.total) * normal_speed * dt;
     V row[8] = {potential, stored, rolling_stored, normal_lost, L::choose(slides, zero, lost), L::choose(slides, lost, zero), rolling_lost, fed};
     L::store_rows(targets, row);
-    (void)law;
 }
 
 template <class L, class Law, class Rolling, bool rich>
@@ -98,7 +97,7 @@ void contact_forces(const LawRow& law, ContactBatch& b, const PairSlot* slots, c
         const Triple<V> old_spring{old[0], old[1], old[2]};
         const V normal_speed = dot(c.velocity, c.normal);
         const Triple<V> tangential_velocity = c.velocity - c.normal * normal_speed;
-        const Triple<V> spring = rescaled<Law, L>(carried<L>(old_spring, c.normal, c.spin, clock.spring_step), c, clock.spring_step);
+        const Triple<V> spring = rescaled<Law, L>(carried<L>(old_spring, c.normal, c.spin, clock.spring_step), c, old[3]);
         c.spring = spring + tangential_velocity * L::all(clock.spring_step);
 
         const V overlap = rich ? L::larger(c.overlap, zero) : c.overlap;
@@ -111,7 +110,7 @@ void contact_forces(const LawRow& law, ContactBatch& b, const PairSlot* slots, c
                 friction = friction - L::all(law.friction_drop) * (slip / (slip + speed));
             }
             if (law.cohesion != Cohesion::none) {
-                const CohesiveForce<V> f = cohesive_force<L>(law, c, normal.elastic, old[3]);
+                const CohesiveForce<V> f = cohesive_force<L>(law, c, normal.elastic, L::choose(L::greater(zero, old[3]), L::all(1.0), zero));
                 limit_force = L::larger(normal.total + f.limit_gain, zero);
                 cohesion = f.pull;
                 broken = f.broken;
@@ -138,7 +137,7 @@ void contact_forces(const LawRow& law, ContactBatch& b, const PairSlot* slots, c
             if (law.booked) {
                 double* book[L::width];
                 for (std::size_t lane = 0; lane < L::width; ++lane) book[lane] = b.book[k + lane].row;
-                book_contacts<Law, L>(law, c, normal, result, cohesion, tangential_velocity, L::all(law.tangential_ratio) * normal.stiffness, old_spring,
+                book_contacts<Law, L>(c, normal, result, cohesion, tangential_velocity, L::all(law.tangential_ratio) * normal.stiffness, old_spring, old[3],
                                       c.spring, old_torque2, rolling, clock.spring_step, book);
                 if (law.shared)
                     for (std::size_t lane = 0; lane < L::width; ++lane)
@@ -151,7 +150,7 @@ void contact_forces(const LawRow& law, ContactBatch& b, const PairSlot* slots, c
         }
         const Triple<V> moment = rolling.moment + cross(point, result.force);
         if (clock.spring_step > 0.0) {
-            const V grown[4] = {result.spring.x, result.spring.y, result.spring.z, broken};
+            const V grown[4] = {result.spring.x, result.spring.y, result.spring.z, rich ? L::choose(L::greater(broken, zero), L::all(-1.0), overlap) : overlap};
             L::store_short_rows(history.spring, grown);
             if constexpr (Rolling::remembers) {
                 const V turned[4] = {rolling.torque.x, rolling.torque.y, rolling.torque.z, zero};

@@ -107,18 +107,17 @@ inline Triple<V> carried(const Triple<V>& old, const Triple<V>& normal, const Tr
 
 /// S_n of the last step / S_n now.
 template <class Law, class L, class V = typename L::Real>
-inline V stiffness_ratio(const V& overlap, const V& normal_speed, double spring_step) {
+inline V stiffness_ratio(const V& overlap, const V& last_overlap) {
     if constexpr (!Law::hertz) return L::all(1.0);
-    const V before = L::larger(overlap + normal_speed * L::all(spring_step), L::all(0.0));
-    return L::square_root(before / L::larger(overlap, L::all(1e-300)));
+    return L::square_root(L::larger(last_overlap, L::all(0.0)) / L::larger(overlap, L::all(1e-300)));
 }
 
 /// The displacement that an incremental spring has after its stiffness has changed: force is kept where the contact is loaded, displacement where it is
 /// unloaded.
 template <class Law, class L, class V = typename L::Real>
-inline Triple<V> rescaled(const Triple<V>& spring, const ContactState<V>& c, double spring_step) {
+inline Triple<V> rescaled(const Triple<V>& spring, const ContactState<V>& c, const V& last_overlap) {
     if constexpr (!Law::incremental) return spring;
-    const V ratio = stiffness_ratio<Law, L>(c.overlap, dot(c.velocity, c.normal), spring_step);
+    const V ratio = stiffness_ratio<Law, L>(c.overlap, last_overlap);
     return spring * L::smaller(ratio, L::all(1.0));
 }
 

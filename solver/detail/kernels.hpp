@@ -51,7 +51,8 @@ struct Candidate {
     std::uint32_t key() const { return (static_cast<std::uint32_t>(sphere_a()) << 16) | b; }
 };
 
-/// What a contact remembers, in the frame of body i: the tangential displacement [m] (0–2) and, of cohesive contacts, 1 once its bridge is broken (3).
+/// What a contact remembers, in the frame of body i: the tangential displacement [m] (0–2) and the overlap of the last step [m], or −1 once a
+/// cohesive contact has come apart (3).
 /// With elastic–plastic rolling a second row follows: the rolling spring's torque [N m] (0–2).
 struct alignas(32) Spring {
     double row[4];

@@ -35,6 +35,16 @@ struct Simulation::State {
     detail::PairList pairs;
     std::vector<detail::Wall> walls;
     std::vector<WallLoad> wall_loads;
+    std::vector<detail::LoadRow> body_loads;  ///< of body_forces; empty without
+    std::vector<std::uint8_t> body_loads_act;
+    double body_force_power = 0.0;  ///< [W]
+    struct Book {
+        std::array<double, 3> stored{};  ///< [J], normal, tangential, rolling
+        std::array<double, 5> gone{};    ///< [J], the rest of BookColumn, summed over time
+        std::vector<double> wall_work;   ///< [J]
+        double body_force_work = 0.0;    ///< [J]
+    };
+    Book book;
 
     std::vector<detail::DriftResult> drift_results;  ///< scratch, one a block of bodies
     std::array<double, 6> stage_seconds{};           ///< see stage_names
@@ -53,6 +63,9 @@ struct Simulation::State {
     void compute_wall_forces(const detail::StepClock& clock);
     void gather_forces_and_kick(double kick);
     void sum_wall_loads();
+    void compute_body_forces();
+    void book_contacts();
+    void book_work();
 
     /// Forces and torques at the present instant, springs untouched: after bodies were added.
     void look_at_forces();
@@ -74,6 +87,7 @@ LawRow make_law_row(const ElasticMaterial& a, const ElasticMaterial& b, const Pa
 
 /// Throws Error(bad_input) for options out of range or that exclude each other.
 void check_physics(const Physics& physics);
+void check_body_forces(const BodyForces& forces);
 
 /// Hash of everything in a definition that decides the future.
 std::uint64_t fingerprint(const SimulationDefinition& definition);

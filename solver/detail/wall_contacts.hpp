@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/detail/exact_surface_hits.hpp"
 #include "solver/detail/pair_contacts.hpp"
 #include "solver/detail/wall_mesh.hpp"
 #include "solver/detail/wall_query.hpp"
@@ -20,7 +21,7 @@ struct WallHistory {
     Vec3 normal = Vec3::UnitZ();  ///< from the wall to the body, of the last step
     Vec3 spring = Vec3::Zero();   ///< [m]
     Vec3 torque = Vec3::Zero();   ///< [N m], of the rolling spring
-    double broken = 0.0;          ///< 1 once a cohesive contact has come apart
+    double last_overlap = 0.0;    ///< [m], or −1 once a cohesive contact has come apart
 };
 
 struct WallCandidate {
@@ -48,13 +49,18 @@ struct WallWatch {
 struct Wall {
     Wall(const WallDefinition& definition, const LawRow& row, ContactKernel kernel, std::size_t spring_rows);
 
+    bool is_exact() const { return exact.kind != ExactSurface::Kind::none; }
+    std::uint32_t patch_of(const Hit& hit) const { return is_exact() ? hit.face : mesh.patch[hit.face]; }
+
     std::string name;
     WallMesh mesh;
     WallQuery query;
     LawRow law;
     ContactKernel contact;
     std::size_t spring_rows;
+    ExactSurface exact;  ///< instead of the mesh unless its kind is `none`
     WallMotion motion;
+    WallPlace place;                 ///< what the motion has come to
     std::uint64_t motion_start = 0;  ///< step at which `motion` began
     Pose start_pose, pose;
     Kinematic record;                ///< pose and velocity as contacts see them
