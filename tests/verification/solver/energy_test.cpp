@@ -54,11 +54,12 @@ TEST(EnergyLong, ElasticFrictionlessBoxOfAThousandClumpsKeepsItsEnergy) {
 }
 
 /// A bed falls into a box whose floor shakes: everything dissipates and the wall does work.
-void expect_balance(ContactModel contact, RollingModel rolling, const std::string& name) {
-    SimulationDefinition d = scene::falling_definition(scene::cylinder_template(3, 8), 2e-6);
+void expect_balance(ContactModel contact, RollingModel rolling, const std::string& name, double step = 2e-6) {
+    SimulationDefinition d = scene::falling_definition(scene::cylinder_template(3, 8), step);
     d.physics.contact = contact;
     d.physics.rolling = rolling;
     d.physics.energy_book = true;
+    d.physics.linear_stiffness = 300.0;  // [N/m], about as soft as the Hertz contacts here
     d.pellet_contact.relaxation_time = d.walls[0].contact.relaxation_time = 5e-5;
     d.walls[0].motion.oscillation = {0.0, 0.0, 2e-4};
     d.walls[0].motion.frequency = 40.0;
@@ -66,7 +67,7 @@ void expect_balance(ContactModel contact, RollingModel rolling, const std::strin
     s.add_bodies(scene::lattice(4, 4, 4, 5e-3, 3));
     const double start = s.energy().total();
     const double height = s.energy().gravity;
-    s.advance(25000);
+    s.advance(static_cast<std::uint64_t>(std::llround(0.05 / step)));
     const EnergyReport e = s.energy();
     const double input = s.energy().kinetic_translation + e.dissipated() + std::abs(e.wall_work[0]) + std::abs(height - e.gravity);
     EXPECT_GT(e.sliding, 0.02 * input);
@@ -83,7 +84,7 @@ TEST(Energy, BooksBalanceOfImpulseExactWithTypeC) {
     expect_balance(ContactModel::hertz_impulse_exact, RollingModel::elastic_plastic, "Energy book, impulse exact, type C");
 }
 TEST(Energy, BooksBalanceOfLinearWithTypeB) {
-    expect_balance(ContactModel::linear, RollingModel::viscous, "Energy book, linear, type B");
+    expect_balance(ContactModel::linear, RollingModel::viscous, "Energy book, linear, type B", 1e-6);  // its damping begins with a jump: half the step
 }
 TEST(Energy, BooksBalanceOfViscoelastic) {
     expect_balance(ContactModel::viscoelastic, RollingModel::constant_torque, "Energy book, viscoelastic");
