@@ -214,6 +214,12 @@ double unit_factor(std::string_view unit_text, Dimension expected) {
     return power_of_ten_times(unit.factor, unit.decimal);
 }
 
+Dimension unit_dimension(std::string_view unit) {
+    const std::string_view text = trimmed(unit);
+    if (text.empty()) throw bad_input("a unit is missing", "write \"1\" for a plain number");
+    return parse_unit(text, dimension::none).dimension;
+}
+
 double parse_quantity(std::string_view whole_text, Dimension expected) {
     const std::string text(trimmed(whole_text));
     const char* const first = text.c_str() + (text.starts_with('+') && !text.starts_with("+-") ? 1 : 0);

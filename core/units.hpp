@@ -41,6 +41,9 @@ double parse_quantity(std::string_view text, Dimension expected);
 /// Factor that turns a number in `unit` into SI: unit_factor("mm") == 1e-3. Throws as parse_quantity.
 double unit_factor(std::string_view unit, Dimension expected);
 
+/// Dimension of a unit: unit_dimension("mm/s") == dimension::velocity. Throws Error(bad_input) for an unknown one.
+Dimension unit_dimension(std::string_view unit);
+
 /// «3.12 mm» for (0.00312, "mm"): the shortest text that parse_quantity turns into the same double; in SI units where `unit` has no such text
 /// (that happens to units that are no power of ten of SI, such as rpm, and near the ends of the range of a double).
 std::string format_quantity(double value_in_si, std::string_view unit);

@@ -1,0 +1,24 @@
+// How the scatter of single runs changes over parameters and effects: the logarithm of the variance is linear in φ and |θ|.
+#pragma once
+
+#include <vector>
+
+#include "inference/spoke_kernel.hpp"
+
+namespace pelletlab::inference {
+
+struct ScatterModel {
+    Eigen::VectorXd coefficients;  ///< 1, φ, |θ|
+    double nu = 200.0;             ///< degrees of freedom of the Student t about it
+    /// Variance factor exp(β·(1, φ, |θ|)).
+    double factor(const Eigen::VectorXd& phi, const Eigen::VectorXd& theta) const;
+    /// The same without the constant: relative to the middle of the runs it was fitted to.
+    double relative(const Eigen::VectorXd& phi, const Eigen::VectorXd& theta) const;
+    double middle = 0.0;  ///< mean of β·(1, φ, |θ|) over those runs
+};
+
+/// Most likely β and ν (from 4 to 200) when run i has Mahalanobis distance `distance[i]` in `dimensions` dimensions under a unit variance factor:
+/// Student-t likelihood, weak normal prior (width 1.5) on the slopes.
+ScatterModel fit_scatter(const SpokeInputs& runs, const std::vector<double>& distance, Eigen::Index dimensions);
+
+}  // namespace pelletlab::inference
