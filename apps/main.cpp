@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
     pelletlab::apps::add_demo_verb(app);
     pelletlab::apps::add_case_verb(app);
     pelletlab::apps::add_mesh_verb(app);
+    pelletlab::apps::add_diagnose_verb(app);
 
     try {
         app.parse(argc, argv);

@@ -12,5 +12,6 @@ void add_fill_verb(CLI::App& app);
 void add_drum_verb(CLI::App& app);
 void add_observe_verb(CLI::App& app);
 void add_demo_verb(CLI::App& app);
+void add_diagnose_verb(CLI::App& app);
 
 }  // namespace pelletlab::apps

@@ -54,7 +54,6 @@ struct DiagnosisWhere {
 struct DiagnosisHypothesis {
     std::string name;
     double log_evidence = 0.0, prior = 0.0, probability = 0.0, chi2 = 0.0, effective_samples = 0.0;
-    double left_out_score = not_known;  ///< mean log score of groups left out, minus that of «parameters only»
     bool in_set = false;
     struct Amplitude {
         std::string effect;

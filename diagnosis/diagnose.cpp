@@ -160,6 +160,25 @@ void describe_emulator(Diagnosis& d, const inference::EmulatorReport& r) {
 
 }  // namespace
 
+Assessment assess(const Attributor& attributor, const Thresholds& t, bool leave_groups_out) {
+    Assessment result;
+    const Problem& problem = attributor.problem();
+    const DiagnosisSettings& s = problem.experiment.settings;
+    const Eigen::VectorXd& y = problem.fitted.value;
+    result.attribution = attribute(attributor, y, t.temperature, s.bootstrap, s.seed);
+    const Attribution& a = result.attribution;
+    result.where = locate(attributor, y, a.fits[0], s.bootstrap, s.seed, leave_groups_out);
+    result.transfer_p = transfer_p_value(attributor, y, s.bootstrap, s.seed);
+    Evidence evidence{&a, &result.where, result.transfer_p, best_detectability(attributor, a.fits[0]), false};
+    int best_pair = -1;
+    for (std::size_t h = 0; h < attributor.hypotheses().size(); ++h)
+        if (attributor.hypotheses()[h].effects.size() == 2 && (best_pair < 0 || a.probability[h] > a.probability[static_cast<std::size_t>(best_pair)]))
+            best_pair = static_cast<int>(h);
+    if (best_pair >= 0 && a.probability[static_cast<std::size_t>(best_pair)] > 0.5) evidence.second_effect_confirmed = runs_confirm_pair(attributor, a, y, best_pair);
+    result.judgement = judge(attributor.hypotheses(), evidence, t);
+    return result;
+}
+
 Diagnosis diagnose(const Problem& problem, const DiagnoseOptions& options) {
     Diagnosis d;
     const DiagnosisSettings& s = problem.experiment.settings;
@@ -177,18 +196,12 @@ Diagnosis diagnose(const Problem& problem, const DiagnoseOptions& options) {
     d.claim_threshold = t.claim;
     d.adequacy_threshold = t.adequacy;
     throw_if_interrupted();
-    const Eigen::VectorXd& y = problem.fitted.value;
-    const Attribution a = attribute(attributor, y, t.temperature, s.bootstrap, s.seed);
-    d.where = locate(attributor, y, a.fits[0], s.bootstrap, s.seed);
-    d.transfer_p = transfer_p_value(attributor, y, s.bootstrap, s.seed);
-
+    const Assessment assessment = assess(attributor, t);
+    const Attribution& a = assessment.attribution;
+    const Judgement& judgement = assessment.judgement;
+    d.where = assessment.where;
+    d.transfer_p = assessment.transfer_p;
     int leading = a.best_closed;
-    Evidence evidence{&a, &d.where, d.transfer_p, best_detectability(attributor, a.fits[0]), false};
-    int best_pair = -1;
-    for (std::size_t h = 0; h < attributor.hypotheses().size(); ++h)
-        if (attributor.hypotheses()[h].effects.size() == 2 && (best_pair < 0 || a.probability[h] > a.probability[static_cast<std::size_t>(best_pair)])) best_pair = static_cast<int>(h);
-    if (best_pair >= 0 && a.probability[static_cast<std::size_t>(best_pair)] > 0.5) evidence.second_effect_confirmed = runs_confirm_pair(attributor, a, y, best_pair);
-    const Judgement judgement = judge(attributor.hypotheses(), evidence, t);
     d.verdict = judgement.verdict;
     for (const int e : judgement.named) d.named.push_back(effect_of(problem, e).name);
     if (d.verdict == Verdict::effect) leading = static_cast<int>(hypothesis_index(attributor.hypotheses(), {judgement.named[0]}));

@@ -19,6 +19,15 @@ struct DiagnoseOptions {
     ProgressSink progress;
 };
 
+/// Locate, attribute and judge with fixed thresholds.
+struct Assessment {
+    Attribution attribution;
+    std::vector<DiagnosisWhere> where;
+    double transfer_p = not_known;
+    Judgement judgement;
+};
+Assessment assess(const Attributor& attributor, const Thresholds& thresholds, bool leave_groups_out = true);
+
 /// Throws Error as make_model and make_problem.
 Diagnosis diagnose(const Campaign& campaign, const Experiment& experiment, const DiagnoseOptions& options = {});
 Diagnosis diagnose(const Problem& problem, const DiagnoseOptions& options = {});

@@ -9,9 +9,12 @@ ALLOWED = {
     "observables": {"core"},
     "packing": {"core", "meshes", "solver", "observables"},
     "experiments": {"core", "meshes", "solver", "observables", "packing"},
+    "campaign": {"core"},
+    "inference": {"core"},
+    "diagnosis": {"core", "campaign", "inference"},
     "io": {"core"},
     "report": {"core"},
-    "apps": {"core", "meshes", "shapegen", "solver", "observables", "packing", "experiments", "io", "report"},
+    "apps": {"core", "meshes", "shapegen", "solver", "observables", "packing", "experiments", "campaign", "inference", "diagnosis", "io", "report"},
 }
 
 # A heavy library is included in files with that ending only: it costs seconds a file, and CGAL's flags must not spread.
