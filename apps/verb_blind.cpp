@@ -49,18 +49,23 @@ diagnosis::BlindCounts counts_of(int cases) {
 /// The case as files that `pelletlab diagnose run` can read, too. Nothing in them depends on the label but the numbers themselves.
 void write_case(const fs::path& folder, const Experiment& e) {
     io::prepare_output_folder(folder);
-    std::string toml = fmt::format("name = \"{}\"\ncampaign = \"{}\"\nlibrary = [", e.name, fs::relative(fs::absolute(e.campaign_file), fs::absolute(folder)).string());
+    std::string toml =
+        fmt::format("name = \"{}\"\ncampaign = \"{}\"\nlibrary = [", e.name, fs::relative(fs::absolute(e.campaign_file), fs::absolute(folder)).string());
     for (std::size_t i = 0; i < e.library.size(); ++i) toml += (i == 0 ? "\"" : ", \"") + e.library[i] + "\"";
     toml += "]\nexclude = [";
     for (std::size_t i = 0; i < e.exclude.size(); ++i) {
         toml += i == 0 ? "{ " : ", { ";
-        for (std::size_t j = 0; j < e.exclude[i].size(); ++j) toml += fmt::format("{}{} = {:.17g}", j == 0 ? "" : ", ", e.exclude[i][j].first, e.exclude[i][j].second);
+        for (std::size_t j = 0; j < e.exclude[i].size(); ++j)
+            toml += fmt::format("{}{} = {:.17g}", j == 0 ? "" : ", ", e.exclude[i][j].first, e.exclude[i][j].second);
         toml += " }";
     }
     const DiagnosisSettings& s = e.settings;
-    toml += fmt::format("]\n\n[settings]\nseed = {}\nbootstrap = {}\nrecalibration_cases = {}\nscatter = \"one run\"\ntolerance_correlation = {:.17g}\nfalse_discovery_rate = {:.17g}\n", s.seed,
-                        s.bootstrap, s.recalibration_cases, s.tolerance_correlation, s.false_discovery_rate);
-    for (const Region& r : e.regions) toml += fmt::format("\n[[region]]\nobservable = \"{}\"\nname = \"{}\"\nrange = [{:.17g}, {:.17g}]\n", r.observable, r.name, r.lower, r.upper);
+    toml += fmt::format(
+        "]\n\n[settings]\nseed = {}\nbootstrap = {}\nrecalibration_cases = {}\nscatter = \"one run\"\ntolerance_correlation = {:.17g}\nfalse_discovery_rate = "
+        "{:.17g}\n",
+        s.seed, s.bootstrap, s.recalibration_cases, s.tolerance_correlation, s.false_discovery_rate);
+    for (const Region& r : e.regions)
+        toml += fmt::format("\n[[region]]\nobservable = \"{}\"\nname = \"{}\"\nrange = [{:.17g}, {:.17g}]\n", r.observable, r.name, r.lower, r.upper);
     for (std::size_t m = 0; m < e.measurements.size(); ++m) {
         const Measurement& one = e.measurements[m];
         toml += fmt::format("\n[[measurement]]\nobservable = \"{}\"\n", one.observable);
@@ -132,7 +137,8 @@ void make(const BlindOptions& o) {
 void run(const BlindOptions& o) {
     const Stopwatch stopwatch;
     const fs::path folder = o.folder;
-    if (!fs::exists(folder / "public" / "hashes.json")) throw bad_input("there are no blind cases here", "make them: pelletlab diagnose blind make", {folder.string()});
+    if (!fs::exists(folder / "public" / "hashes.json"))
+        throw bad_input("there are no blind cases here", "make them: pelletlab diagnose blind make", {folder.string()});
     std::vector<Experiment> experiments;
     const Json hashes = Json::parse(io::read_text(folder / "public" / "hashes.json"));
     for (const auto& [id, hash] : hashes.items()) experiments.push_back(io::read_experiment(folder / "public" / id / "experiment.toml"));
@@ -159,7 +165,8 @@ void run(const BlindOptions& o) {
     std::string frozen;
     for (const auto& [fold, i] : widest) {
         const diagnosis::Attributor attributor(problems[i]);
-        thresholds[fold] = diagnosis::recalibrate(attributor, problems[i].experiment.settings.recalibration_cases, problems[i].experiment.settings.seed, progress);
+        thresholds[fold] =
+            diagnosis::recalibrate(attributor, problems[i].experiment.settings.recalibration_cases, problems[i].experiment.settings.seed, progress);
         frozen += fold + " " + diagnosis::thresholds_text(thresholds[fold]);
     }
     io::prepare_output_folder(folder / "verdicts");
@@ -174,18 +181,25 @@ void run(const BlindOptions& o) {
     }
     printer.finish();
     io::write_text(folder / "verdicts" / "verdicts.json", Json(verdicts).dump(1) + "\n");
-    io::write_text(folder / "verdicts" / "frozen.json", Json{{"thresholds", io::sha256_of_text(frozen)}, {"verdicts", io::sha256_of_file(folder / "verdicts" / "verdicts.json")}}.dump(1) + "\n");
+    io::write_text(folder / "verdicts" / "frozen.json",
+                   Json{{"thresholds", io::sha256_of_text(frozen)}, {"verdicts", io::sha256_of_file(folder / "verdicts" / "verdicts.json")}}.dump(1) + "\n");
     print_written(folder / "verdicts", fmt::format("{} verdicts, thresholds and their hashes; {}", verdicts.size(), duration_text(stopwatch.seconds())));
 }
 
 std::string table_text(const diagnosis::BlindScore& score, int cases) {
     std::string text = fmt::format("| quantity | bar | {} cases | |\n| --- | --- | --- | --- |\n", cases);
-    for (const auto& r : score.rows) text += fmt::format("| {} | {} | {} | {} |\n", r.quantity, r.bar, r.result, !r.judged ? "no case" : r.bar == "(no bar)" ? "" : r.reached ? "reached" : "**missed**");
+    for (const auto& r : score.rows)
+        text += fmt::format("| {} | {} | {} | {} |\n", r.quantity, r.bar, r.result,
+                            !r.judged             ? "no case"
+                            : r.bar == "(no bar)" ? ""
+                            : r.reached           ? "reached"
+                                                  : "**missed**");
     text += "\n| effect ranked first | bar region | all single effects |\n| --- | --- | --- |\n";
     for (const auto& [rule, share] : score.rules_all) {
         const auto bar = std::find_if(score.rules.begin(), score.rules.end(), [&rule = rule](const auto& one) { return one.first == rule; });
-        text += fmt::format("| {} | {} | {:.0f} % ({}/{}) |\n", rule, bar == score.rules.end() ? "" : fmt::format("{:.0f} % ({}/{})", 100 * bar->second.value, bar->second.hits, bar->second.count), 100 * share.value,
-                            share.hits, share.count);
+        text += fmt::format("| {} | {} | {:.0f} % ({}/{}) |\n", rule,
+                            bar == score.rules.end() ? "" : fmt::format("{:.0f} % ({}/{})", 100 * bar->second.value, bar->second.hits, bar->second.count),
+                            100 * share.value, share.hits, share.count);
     }
     text += "\n| kind of case | verdicts |\n| --- | --- |\n";
     for (const auto& [kind, counts] : score.verdicts) {
@@ -212,7 +226,8 @@ void score(const BlindOptions& o) {
     std::vector<BlindLabel> labels;
     for (const Json& one : sealed) {
         labels.push_back(one.at("label").get<BlindLabel>());
-        if (hashes.value(labels.back().id, "") != seal_of(labels.back(), one.at("salt"))) throw bad_input("the label of " + labels.back().id + " is not the one that was sealed", "make new cases", {folder.string()});
+        if (hashes.value(labels.back().id, "") != seal_of(labels.back(), one.at("salt")))
+            throw bad_input("the label of " + labels.back().id + " is not the one that was sealed", "make new cases", {folder.string()});
     }
     const auto verdicts = Json::parse(io::read_text(verdict_file)).get<std::vector<BlindVerdict>>();
     const std::string text = table_text(diagnosis::score_blind(labels, verdicts), static_cast<int>(labels.size()));
@@ -229,7 +244,8 @@ void add_blind_verbs(CLI::App& diagnose) {
     CLI::App* blind = diagnose.add_subcommand("blind", "Judge the diagnosis on runs of the campaign whose cause is sealed");
     blind->require_subcommand(1);
     blind->fallthrough();
-    CLI::App* first = blind->add_subcommand("make", "Draw cases, seal their labels\n  example: pelletlab diagnose blind make examples/diagnosis/experiment.toml -o out/blind --seed 7 --cases 20");
+    CLI::App* first = blind->add_subcommand(
+        "make", "Draw cases, seal their labels\n  example: pelletlab diagnose blind make examples/diagnosis/experiment.toml -o out/blind --seed 7 --cases 20");
     first->add_option("experiment", options->experiment, "Names campaign, regions and settings; its measurements are not used")->required();
     first->add_option("-o,--output", options->folder, "Folder of the cases")->capture_default_str();
     first->add_option("--seed", options->seed, "Which cases")->capture_default_str();

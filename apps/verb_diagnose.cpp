@@ -81,10 +81,15 @@ void add_diagnose_verb(CLI::App& app) {
         return verb;
     };
     add("audit", "Look for mistakes in the data before any statistics\n  example: pelletlab diagnose audit examples/diagnosis/experiment.toml", run_audit);
-    add("plan", "Which effects can these data see and tell apart? Before they are judged\n  example: pelletlab diagnose plan examples/diagnosis/experiment.toml", run_plan);
-    CLI::App* run = add("run", "The whole diagnosis: diagnosis.json and report.html\n  example: pelletlab diagnose run examples/diagnosis/experiment.toml -o out/diagnosis", run_all);
+    add("plan",
+        "Which effects can these data see and tell apart? Before they are judged\n  example: pelletlab diagnose plan examples/diagnosis/experiment.toml",
+        run_plan);
+    CLI::App* run =
+        add("run", "The whole diagnosis: diagnosis.json and report.html\n  example: pelletlab diagnose run examples/diagnosis/experiment.toml -o out/diagnosis",
+            run_all);
     run->add_option("-o,--output", options->output, "Folder of the results; out/diagnosis-<name> when not given");
-    CLI::App* page = group->add_subcommand("report", "Make the page again from diagnosis.json\n  example: pelletlab diagnose report out/diagnosis/diagnosis.json -o report.html");
+    CLI::App* page = group->add_subcommand(
+        "report", "Make the page again from diagnosis.json\n  example: pelletlab diagnose report out/diagnosis/diagnosis.json -o report.html");
     page->add_option("diagnosis", options->diagnosis, "diagnosis.json")->required();
     page->add_option("-o,--output", options->html, "HTML file")->capture_default_str();
     page->callback([options] {

@@ -69,11 +69,10 @@ std::vector<Configuration> join_regimes(const CampaignTable& table, const std::v
     std::vector<Configuration> configurations;
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const auto& row = table.rows[r];
-        const auto regime = static_cast<std::size_t>(std::find_if(regimes.begin(), regimes.end(),
-                                                                  [&](const CampaignRegime& one) {
-                                                                      return std::isnan(row.regime_level) ? one.name == row.regime : one.level == row.regime_level;
-                                                                  }) -
-                                                     regimes.begin());
+        const auto regime = static_cast<std::size_t>(
+            std::find_if(regimes.begin(), regimes.end(),
+                         [&](const CampaignRegime& one) { return std::isnan(row.regime_level) ? one.name == row.regime : one.level == row.regime_level; }) -
+            regimes.begin());
         auto& candidates = replicates_of[{row.parameters, row.effects}];
         // A second run of the same configuration and regime is a replicate: it opens a row of its own.
         const auto free = std::find_if(candidates.begin(), candidates.end(), [&](std::size_t c) { return configurations[c].rows[regime] < 0; });
@@ -164,7 +163,8 @@ Campaign assemble(CampaignTable table) {
             const CampaignOutput& out = c.outputs[j];
             const int r = one.rows[static_cast<std::size_t>(out.regime)];
             const CampaignTable::Row* row = r < 0 ? nullptr : &table.rows[static_cast<std::size_t>(r)];
-            const double value = row == nullptr ? not_known : row->outputs[first[static_cast<std::size_t>(out.observable)] + static_cast<std::size_t>(out.element)];
+            const double value =
+                row == nullptr ? not_known : row->outputs[first[static_cast<std::size_t>(out.observable)] + static_cast<std::size_t>(out.element)];
             if (row == nullptr || row->failed || std::isnan(value)) bad.insert(out.regime);
             y[static_cast<Eigen::Index>(j)] = value;
         }
@@ -177,10 +177,11 @@ Campaign assemble(CampaignTable table) {
     for (auto& [name, block] : blocks) {
         block.name = name;
         if (block.failed > table.largest_failed_share * block.runs)
-            throw bad_input("the block '" + name + "' has " + std::to_string(block.failed) + " failed, unsteady or incomplete runs of " + std::to_string(block.runs),
-                            "run them again; or narrow axis_range to where every run has a value; or lower the effect's `full`; or raise largest_failed_share "
-                            "knowing that the runs that fail are not a random sample",
-                            {table.file});
+            throw bad_input(
+                "the block '" + name + "' has " + std::to_string(block.failed) + " failed, unsteady or incomplete runs of " + std::to_string(block.runs),
+                "run them again; or narrow axis_range to where every run has a value; or lower the effect's `full`; or raise largest_failed_share "
+                "knowing that the runs that fail are not a random sample",
+                {table.file});
         c.blocks.push_back(block);
     }
     const auto n = static_cast<Eigen::Index>(outputs.size());

@@ -20,8 +20,8 @@ double value_of_amplitude(const CampaignEffect& effect, double theta);
 double unit_coordinate(const CampaignParameter& parameter, double value);
 double value_of_coordinate(const CampaignParameter& parameter, double phi);
 
-/// The campaign without the configurations at these points (parameter name → value): how runs that a case was drawn from are kept out. Throws Error(bad_input) for
-/// an unknown parameter name or a point that no configuration has.
+/// The campaign without the configurations at these points (parameter name → value): how runs that a case was drawn from are kept out. Throws Error(bad_input)
+/// for an unknown parameter name or a point that no configuration has.
 Campaign without_points(const Campaign& campaign, const std::vector<std::vector<std::pair<std::string, double>>>& points, const std::string& file);
 
 /// Configurations whose switched-on effects all are in `effects` (indices), in the campaign's order.

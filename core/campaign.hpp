@@ -54,7 +54,7 @@ struct CampaignTable {
         int line = 0;
         std::string regime;
         double regime_level = 0.0;
-        bool failed = false;  ///< the status column says so
+        bool failed = false;                               ///< the status column says so
         std::vector<double> parameters, effects, outputs;  ///< outputs: the observables' columns one after the other
     };
     std::vector<Row> rows;

@@ -21,12 +21,13 @@ struct AuditItem {
 struct DiagnosisPlan {
     struct Effect {
         std::string name;
-        double detectability = 0.0;         ///< λ_k0 at θ = 1: squared distance in standard deviations that no recalibration can remove; median over the parameters' range
+        double detectability =
+            0.0;  ///< λ_k0 at θ = 1: squared distance in standard deviations that no recalibration can remove; median over the parameters' range
         double smallest_detectability = 0.0;  ///< the worst over the range
-        double absorbed_share = 0.0;        ///< 1 − λ_k0 / (squared distance without recalibration)
-        double detectable_from = 0.0;       ///< amplitude θ at which λ_k0 reaches 9; NaN when θ = 1 does not
-        std::string amplitude_text;         ///< the same in the effect's unit
-        double expected_error = 0.0;        ///< Σ_l Φ(−√λ_kl / 2): bound on the chance to name another effect at θ = 1
+        double absorbed_share = 0.0;          ///< 1 − λ_k0 / (squared distance without recalibration)
+        double detectable_from = 0.0;         ///< amplitude θ at which λ_k0 reaches 9; NaN when θ = 1 does not
+        std::string amplitude_text;           ///< the same in the effect's unit
+        double expected_error = 0.0;          ///< Σ_l Φ(−√λ_kl / 2): bound on the chance to name another effect at θ = 1
     };
     std::vector<Effect> effects;
     std::vector<std::vector<double>> separability;  ///< λ_kl: effect k at θ = 1 against the best that effect l can do
@@ -85,8 +86,8 @@ struct DiagnosisNext {
 struct Diagnosis {
     std::string name, campaign, campaign_source;
     Verdict verdict = Verdict::underpowered;
-    std::string statement;               ///< one or two sentences for people
-    std::vector<std::string> named;      ///< effects of the verdict
+    std::string statement;           ///< one or two sentences for people
+    std::vector<std::string> named;  ///< effects of the verdict
     std::vector<std::string> notes;
     std::vector<AuditItem> audit;
     DiagnosisPlan plan;
@@ -100,27 +101,34 @@ struct Diagnosis {
     double temperature = 1.0, claim_threshold = 0.9, adequacy_threshold = 0.05;
     double baseline_p = 1.0, best_p = 1.0;  ///< adequacy
     std::string best_name, misfit_family;
-    std::vector<std::string> nearest;       ///< library signatures closest to what is left, with cosine
-    double transfer_p = not_known;          ///< of the miss of data that were not calibrated on; NaN when nothing is marked as calibration
+    std::vector<std::string> nearest;  ///< library signatures closest to what is left, with cosine
+    double transfer_p = not_known;     ///< of the miss of data that were not calibrated on; NaN when nothing is marked as calibration
     bool prior_dependent = false;
     std::vector<DiagnosisShrink> how_far;
     std::string confirmation;
     std::vector<DiagnosisNext> next;
     std::vector<DiagnosisCurve> curves;
-    std::vector<std::string> emulator;      ///< acceptance, line by line
+    std::vector<std::string> emulator;  ///< acceptance, line by line
     bool emulator_accepted = true;
     Provenance provenance;
 };
 
 inline std::string verdict_code(Verdict verdict) {
     switch (verdict) {
-        case Verdict::no_gap: return "NO-GAP";
-        case Verdict::ambiguous_calibration: return "AMBIGUOUS-CALIBRATION";
-        case Verdict::effect: return "EFFECT";
-        case Verdict::set: return "SET";
-        case Verdict::effects: return "EFFECTS";
-        case Verdict::outside_library: return "OUTSIDE-LIBRARY";
-        case Verdict::underpowered: break;
+        case Verdict::no_gap:
+            return "NO-GAP";
+        case Verdict::ambiguous_calibration:
+            return "AMBIGUOUS-CALIBRATION";
+        case Verdict::effect:
+            return "EFFECT";
+        case Verdict::set:
+            return "SET";
+        case Verdict::effects:
+            return "EFFECTS";
+        case Verdict::outside_library:
+            return "OUTSIDE-LIBRARY";
+        case Verdict::underpowered:
+            break;
     }
     return "UNDERPOWERED";
 }

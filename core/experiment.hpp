@@ -47,11 +47,11 @@ struct Region {
 /// Something that could be measured next.
 struct Candidate {
     std::string name;
-    double cost = 1.0;          ///< relative
-    std::string observable;     ///< of a new regime or profile; empty for a direct measurement
-    std::string regime;         ///< a regime of the campaign
-    std::string direct;         ///< effect or parameter that is measured directly
-    double uncertainty = 0.0;   ///< [unit of the observable, effect or parameter]
+    double cost = 1.0;         ///< relative
+    std::string observable;    ///< of a new regime or profile; empty for a direct measurement
+    std::string regime;        ///< a regime of the campaign
+    std::string direct;        ///< effect or parameter that is measured directly
+    double uncertainty = 0.0;  ///< [unit of the observable, effect or parameter]
     Place place;
 };
 
@@ -67,9 +67,9 @@ struct DiagnosisSettings {
 struct Experiment {
     std::string name, file, text_sha256;
     std::string campaign_file;
-    std::vector<std::string> library;                      ///< effects that may explain a gap; empty: all of the campaign
+    std::vector<std::string> library;                                  ///< effects that may explain a gap; empty: all of the campaign
     std::vector<std::vector<std::pair<std::string, double>>> exclude;  ///< parameter values: runs at these points are not used
-    std::vector<std::string> suspects;                     ///< effects whose prior is raised threefold
+    std::vector<std::string> suspects;                                 ///< effects whose prior is raised threefold
     std::vector<CalibrationParameter> parameters;
     std::vector<Measurement> measurements;
     std::vector<Region> regions;

@@ -96,7 +96,8 @@ void normalise(Attribution& a, const std::vector<Hypothesis>& hypotheses, double
     }
     std::vector<int> order(hypotheses.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int x, int y) { return a.probability[static_cast<std::size_t>(x)] > a.probability[static_cast<std::size_t>(y)]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int x, int y) { return a.probability[static_cast<std::size_t>(x)] > a.probability[static_cast<std::size_t>(y)]; });
     a.credible_set.clear();
     double covered = 0.0;
     for (const int h : order) {
@@ -115,8 +116,8 @@ Attribution attribute(const Attributor& attributor, const Eigen::VectorXd& y, do
     }
     normalise(a, hypotheses, temperature, attributor.problem().model->effects());
     a.baseline_adequacy = test_adequacy(attributor.problem(), a.fits[0], bootstrap, seed);
-    a.adequacy = a.best_closed == 0 ? a.baseline_adequacy
-                                    : test_adequacy(attributor.problem(), a.fits[static_cast<std::size_t>(a.best_closed)], bootstrap, seed);
+    a.adequacy =
+        a.best_closed == 0 ? a.baseline_adequacy : test_adequacy(attributor.problem(), a.fits[static_cast<std::size_t>(a.best_closed)], bootstrap, seed);
     return a;
 }
 

@@ -89,14 +89,14 @@ struct Adequacy {
 Adequacy test_adequacy(const Problem& problem, const Fit& fit, int draws, std::uint64_t seed);
 
 struct Attribution {
-    std::vector<Fit> fits;                 ///< one a hypothesis
+    std::vector<Fit> fits;  ///< one a hypothesis
     std::vector<double> log_evidence, probability;
-    std::vector<double> inclusion;         ///< P_k of each library effect
+    std::vector<double> inclusion;  ///< P_k of each library effect
     double probability_of_open = 0.0, probability_of_none = 0.0;
-    std::vector<int> credible_set;         ///< hypotheses, most probable first, with at least 90 %
-    int best_closed = 0;                   ///< most probable hypothesis that is not open
-    Adequacy adequacy;                     ///< of best_closed
-    Adequacy baseline_adequacy;            ///< of «parameters only»
+    std::vector<int> credible_set;  ///< hypotheses, most probable first, with at least 90 %
+    int best_closed = 0;            ///< most probable hypothesis that is not open
+    Adequacy adequacy;              ///< of best_closed
+    Adequacy baseline_adequacy;     ///< of «parameters only»
 };
 
 /// p(H|y) ∝ p(H) p(y|H)^{1/T}.

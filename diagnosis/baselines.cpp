@@ -68,7 +68,8 @@ std::vector<BaselineRanking> baseline_rankings(const Attributor& attributor, con
     for (const Group& g : data.groups) group_miss.push_back(miss(g.points).mean());
     for (std::size_t g = 0; g < group_miss.size(); ++g)
         if (std::abs(group_miss[g]) > std::abs(group_miss[largest])) largest = g;
-    add("largest residual", [&](Eigen::Index e) { return physical(data.groups[largest].points, e).mean() * (group_miss[largest] > 0 ? 1.0 : -1.0) / physical.col(e).norm(); });
+    add("largest residual",
+        [&](Eigen::Index e) { return physical(data.groups[largest].points, e).mean() * (group_miss[largest] > 0 ? 1.0 : -1.0) / physical.col(e).norm(); });
     add("nearest signature, raw", [&](Eigen::Index e) { return cosine(raw.col(e), raw_residual); });
     add("nearest signature, after the fit", [&](Eigen::Index e) { return cosine(fitted.col(e), residual); });
     const Distortions d = generic_distortions(problem, w.factor().rowwise().norm());

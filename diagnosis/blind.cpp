@@ -15,7 +15,8 @@ namespace {
 
 constexpr int folds = 4;
 
-/// Fold of every point: sum of the ranks of its parameter values, modulo the number of folds (a Latin pattern on a grid, so every value keeps trained neighbours).
+/// Fold of every point: sum of the ranks of its parameter values, modulo the number of folds (a Latin pattern on a grid, so every value keeps trained
+/// neighbours).
 std::vector<int> folds_of(const Campaign& c) {
     std::vector<int> fold(static_cast<std::size_t>(c.parameter.rows()), 0);
     for (Eigen::Index j = 0; j < c.parameter.cols(); ++j) {

@@ -18,7 +18,8 @@ struct BlindLabel {
     std::vector<std::string> effects;  ///< switched on in truth
     std::vector<double> amplitude;     ///< θ of each
     double detectability = 0.0;        ///< λ of the truth against «parameters only»
-    double separability = 0.0;         ///< smallest λ against any other single effect (for pairs: any single effect; outside the library: all that is left in it, pairs too)
+    double separability =
+        0.0;  ///< smallest λ against any other single effect (for pairs: any single effect; outside the library: all that is left in it, pairs too)
     std::vector<std::string> regions;  ///< groups with a squared projected shift above 9, largest first
     std::vector<std::string> silent;   ///< groups with a squared projected shift below 1
 };
@@ -34,7 +35,8 @@ struct BlindCounts {
     int null = 20, single = 40, pair = 15, outside = 15, reduced = 10;
 };
 
-/// Cases in shuffled order with their labels; `taken` are configurations that another set has used already. Throws Error(bad_input) when the campaign has too few runs.
+/// Cases in shuffled order with their labels; `taken` are configurations that another set has used already. Throws Error(bad_input) when the campaign has too
+/// few runs.
 std::vector<BlindCase> draw_blind_cases(const Campaign& campaign, const BlindCounts& counts, std::uint64_t seed, const std::vector<int>& taken);
 
 /// The experiment of a case: one measurement a regime and observable, values of the run, settings of the template.
@@ -48,7 +50,7 @@ struct BlindVerdict {
     std::vector<std::string> named, discoveries;
     std::map<std::string, double> inclusion;
     double probability_of_open = 0.0, best_p = 1.0;
-    std::vector<std::string> credible_set;  ///< hypothesis names
+    std::vector<std::string> credible_set;                  ///< hypothesis names
     std::map<std::string, std::vector<std::string>> rules;  ///< baseline rule → effects ranked
 };
 
@@ -61,8 +63,8 @@ struct BlindScoreRow {
 };
 struct BlindScore {
     std::vector<BlindScoreRow> rows;
-    std::vector<std::pair<std::string, inference::Share>> rules;      ///< effect ranked first, single effects of the bar region
-    std::vector<std::pair<std::string, inference::Share>> rules_all;  ///< … all single effects
+    std::vector<std::pair<std::string, inference::Share>> rules;               ///< effect ranked first, single effects of the bar region
+    std::vector<std::pair<std::string, inference::Share>> rules_all;           ///< … all single effects
     std::vector<std::pair<std::string, std::map<std::string, int>>> verdicts;  ///< kind → verdict → count
 };
 BlindScore score_blind(const std::vector<BlindLabel>& labels, const std::vector<BlindVerdict>& verdicts);

@@ -52,7 +52,8 @@ struct Counter {
 BlindScore score_blind(const std::vector<BlindLabel>& labels, const std::vector<BlindVerdict>& verdicts) {
     std::map<std::string, const BlindVerdict*> by_id;
     for (const BlindVerdict& v : verdicts) by_id[v.id] = &v;
-    Counter false_alarm, first, second, first_all, covered, spurious, outside_said, outside_wrong, false_outside, both, one_of_two, right_region, claimed_right, null_structural;
+    Counter false_alarm, first, second, first_all, covered, spurious, outside_said, outside_wrong, false_outside, both, one_of_two, right_region, claimed_right,
+        null_structural;
     int discoveries = 0, false_discoveries = 0;
     std::vector<double> probability;
     std::vector<bool> truth;
@@ -120,7 +121,8 @@ BlindScore score_blind(const std::vector<BlindLabel>& labels, const std::vector<
     row("single effect ranked first, all amplitudes", "(no bar)", first_all, 0.0, 1.0);
     row("named effect is right, when a single effect is claimed", "(no bar)", claimed_right, 0.0, 1.0);
     row("truth inside the 90 % set, all singles", "85–97 %", covered, 0.85, 0.97);
-    score.rows.push_back({"mean size of the 90 % set, bar region", "≤ 2", set_count == 0 ? "no case" : fmt::format("{:.2f}", set_size / set_count), set_size <= 2.0 * set_count, set_count > 0});
+    score.rows.push_back({"mean size of the 90 % set, bar region", "≤ 2", set_count == 0 ? "no case" : fmt::format("{:.2f}", set_size / set_count),
+                          set_size <= 2.0 * set_count, set_count > 0});
     row("spurious second effect claimed", "≤ 5 %", spurious, 0.0, 0.05);
     row("outside the library (λ ≥ 36): said so", "≥ 90 %", outside_said, 0.90, 1.0);
     row("outside the library (λ ≥ 36): a wrong effect claimed", "≤ 5 %", outside_wrong, 0.0, 0.05);
@@ -129,10 +131,13 @@ BlindScore score_blind(const std::vector<BlindLabel>& labels, const std::vector<
     row("two effects (λ ≥ 36): one of them ranked first", "≥ 95 %", one_of_two, 0.95, 1.0);
     row("group with the largest true shift among the discoveries", "≥ 90 %", right_region, 0.90, 1.0);
     const double rate = discoveries == 0 ? 0.0 : static_cast<double>(false_discoveries) / discoveries;
-    score.rows.push_back({"false discoveries among the groups found", "≤ 10 %", fmt::format("{:.0f} % ({}/{})", 100 * rate, false_discoveries, discoveries), rate <= 0.10, discoveries > 0});
+    score.rows.push_back({"false discoveries among the groups found", "≤ 10 %", fmt::format("{:.0f} % ({}/{})", 100 * rate, false_discoveries, discoveries),
+                          rate <= 0.10, discoveries > 0});
     const auto calibration = inference::calibration_score(probability, truth);
-    score.rows.push_back({"calibration of P(effect): ECE, 10 bins", "≤ 0.05", fmt::format("{:.3f}", calibration.expected_error), calibration.expected_error <= 0.05, true});
-    score.rows.push_back({"Brier score against half of climatology", fmt::format("≤ {:.3f}", 0.5 * calibration.climatology_brier), fmt::format("{:.3f}", calibration.brier), calibration.brier <= 0.5 * calibration.climatology_brier, true});
+    score.rows.push_back(
+        {"calibration of P(effect): ECE, 10 bins", "≤ 0.05", fmt::format("{:.3f}", calibration.expected_error), calibration.expected_error <= 0.05, true});
+    score.rows.push_back({"Brier score against half of climatology", fmt::format("≤ {:.3f}", 0.5 * calibration.climatology_brier),
+                          fmt::format("{:.3f}", calibration.brier), calibration.brier <= 0.5 * calibration.climatology_brier, true});
     score.rules.emplace_back("PelletLab", first.share());
     score.rules_all.emplace_back("PelletLab", first_all.share());
     for (const auto& [rule, c] : rules) score.rules.emplace_back(rule, c.share());

@@ -37,12 +37,14 @@ DiagnosisHypothesis describe(const Problem& problem, const Hypothesis& h, const 
         const auto i = p + static_cast<Eigen::Index>(e);
         const auto value = [&](double theta) { return campaign::value_of_amplitude(effect, theta); };
         d.amplitudes.push_back({effect.name, fit.posterior.mean[i], fit.posterior.lower[i], fit.posterior.upper[i],
-                                fmt::format("{:.3g} ({:.3g} to {:.3g}){}", value(fit.posterior.mean[i]), value(fit.posterior.lower[i]), value(fit.posterior.upper[i]), unit_text(effect.unit))});
+                                fmt::format("{:.3g} ({:.3g} to {:.3g}){}", value(fit.posterior.mean[i]), value(fit.posterior.lower[i]),
+                                            value(fit.posterior.upper[i]), unit_text(effect.unit))});
     }
     for (Eigen::Index i = 0; i < p; ++i) {
         const CampaignParameter& one = problem.model->campaign.description.parameters[static_cast<std::size_t>(i)];
         const auto value = [&](double phi) { return campaign::value_of_coordinate(one, phi); };
-        d.parameters.push_back(fmt::format("{} {:.3g} ({:.3g} to {:.3g}){}", one.name, value(fit.posterior.mean[i]), value(fit.posterior.lower[i]), value(fit.posterior.upper[i]), unit_text(one.unit)));
+        d.parameters.push_back(fmt::format("{} {:.3g} ({:.3g} to {:.3g}){}", one.name, value(fit.posterior.mean[i]), value(fit.posterior.lower[i]),
+                                           value(fit.posterior.upper[i]), unit_text(one.unit)));
     }
     return d;
 }
@@ -98,7 +100,17 @@ void add_curves(Diagnosis& d, const Attributor& attributor, const Attribution& a
         const DataPoint& p = data.points[i];
         if (p.measurement != last) {
             const auto& o = problem.model->campaign.description.observables[static_cast<std::size_t>(p.observable)];
-            d.curves.push_back({problem.experiment.measurements[static_cast<std::size_t>(p.measurement)].name, o.name, p.regime, o.unit, o.axis_name, held_out, {}, {}, {}, {}, {}});
+            d.curves.push_back({problem.experiment.measurements[static_cast<std::size_t>(p.measurement)].name,
+                                o.name,
+                                p.regime,
+                                o.unit,
+                                o.axis_name,
+                                held_out,
+                                {},
+                                {},
+                                {},
+                                {},
+                                {}});
             last = p.measurement;
         }
         DiagnosisCurve& c = d.curves.back();
@@ -118,14 +130,21 @@ std::string join(const std::vector<std::string>& words, const char* between) {
 
 std::string statement_of(const Diagnosis& d, const Judgement& j) {
     switch (d.verdict) {
-        case Verdict::no_gap: return "No gap: the baseline, calibrated, describes these data within noise and tolerance.";
-        case Verdict::ambiguous_calibration: return "The miss on new data is ambiguity of the calibration: one set of parameters fits all data together.";
-        case Verdict::effect: return fmt::format("The gap is explained by {} ({}).", d.named[0], j.reason);
-        case Verdict::effects: return fmt::format("The gap needs {} together.", join(d.named, " and "));
-        case Verdict::set: return d.named.empty() ? "These data do not tell the explanations apart."
-                                                  : fmt::format("These data cannot tell apart: {}. Measure what is recommended below.", join(d.named, ", "));
-        case Verdict::outside_library: return fmt::format("None of the library's effects describes the gap: {}.", j.reason);
-        case Verdict::underpowered: break;
+        case Verdict::no_gap:
+            return "No gap: the baseline, calibrated, describes these data within noise and tolerance.";
+        case Verdict::ambiguous_calibration:
+            return "The miss on new data is ambiguity of the calibration: one set of parameters fits all data together.";
+        case Verdict::effect:
+            return fmt::format("The gap is explained by {} ({}).", d.named[0], j.reason);
+        case Verdict::effects:
+            return fmt::format("The gap needs {} together.", join(d.named, " and "));
+        case Verdict::set:
+            return d.named.empty() ? "These data do not tell the explanations apart."
+                                   : fmt::format("These data cannot tell apart: {}. Measure what is recommended below.", join(d.named, ", "));
+        case Verdict::outside_library:
+            return fmt::format("None of the library's effects describes the gap: {}.", j.reason);
+        case Verdict::underpowered:
+            break;
     }
     return "No conclusion is possible: these data could not have shown any effect of the library.";
 }
@@ -153,9 +172,12 @@ bool depends_on_prior(Attribution a, std::vector<Hypothesis> hypotheses, double 
 
 void describe_emulator(Diagnosis& d, const inference::EmulatorReport& r) {
     d.emulator_accepted = r.accepted;
-    d.emulator = {fmt::format("{} configurations ({} with at most one effect, {} with two), {} modes with {:.2f} % of the variance", r.runs, r.spoke_runs, r.pair_runs, r.modes, 100.0 * r.kept_variance),
-                  fmt::format("left-out points: standardised error {:.2f} (1 is right), {:.1f} % beyond three, {:.0f} % of outputs within half a tolerance", r.standardised_rms, 100.0 * r.share_beyond_three, 100.0 * r.share_small),
-                  fmt::format("scatter of single runs between {:.2f} and {:.2f} of its middle, Student t with {:.0f} degrees of freedom", r.smallest_scatter, r.largest_scatter, r.nu)};
+    d.emulator = {fmt::format("{} configurations ({} with at most one effect, {} with two), {} modes with {:.2f} % of the variance", r.runs, r.spoke_runs,
+                              r.pair_runs, r.modes, 100.0 * r.kept_variance),
+                  fmt::format("left-out points: standardised error {:.2f} (1 is right), {:.1f} % beyond three, {:.0f} % of outputs within half a tolerance",
+                              r.standardised_rms, 100.0 * r.share_beyond_three, 100.0 * r.share_small),
+                  fmt::format("scatter of single runs between {:.2f} and {:.2f} of its middle, Student t with {:.0f} degrees of freedom", r.smallest_scatter,
+                              r.largest_scatter, r.nu)};
 }
 
 }  // namespace
@@ -174,7 +196,8 @@ Assessment assess(const Attributor& attributor, const Thresholds& t, bool leave_
     for (std::size_t h = 0; h < attributor.hypotheses().size(); ++h)
         if (attributor.hypotheses()[h].effects.size() == 2 && (best_pair < 0 || a.probability[h] > a.probability[static_cast<std::size_t>(best_pair)]))
             best_pair = static_cast<int>(h);
-    if (best_pair >= 0 && a.probability[static_cast<std::size_t>(best_pair)] > 0.5) evidence.second_effect_confirmed = runs_confirm_pair(attributor, a, y, best_pair);
+    if (best_pair >= 0 && a.probability[static_cast<std::size_t>(best_pair)] > 0.5)
+        evidence.second_effect_confirmed = runs_confirm_pair(attributor, a, y, best_pair);
     result.judgement = judge(attributor.hypotheses(), evidence, t);
     return result;
 }
@@ -222,7 +245,8 @@ Diagnosis diagnose(const Problem& problem, const DiagnoseOptions& options) {
     for (const bool held_out : {false, true}) {
         const double by_runs = shrink_by_runs(attributor, a, leading, held_out);
         if (!std::isnan(by_runs))
-            d.confirmation += fmt::format("By single runs of the campaign, the closest with and without the effect: the {} gap changes by {:+.0f} %. ", held_out ? "held-out" : "fitted", -100.0 * by_runs);
+            d.confirmation += fmt::format("By single runs of the campaign, the closest with and without the effect: the {} gap changes by {:+.0f} %. ",
+                                          held_out ? "held-out" : "fitted", -100.0 * by_runs);
     }
     d.next = recommend(attributor, a, s.seed);
     add_curves(d, attributor, a, leading, problem.fitted, false);

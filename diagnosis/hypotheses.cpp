@@ -60,8 +60,9 @@ Attributor::Attributor(const Problem& problem, const Priors& priors) : problem_(
             Eigen::VectorXd psi(n);
             psi.head(p) = problem.phi_lower + u.head(p).cwiseProduct(problem.phi_upper - problem.phi_lower);
             for (Eigen::Index e = p; e < n; ++e) {
-                const auto& effect = problem.model->campaign.description.effects[static_cast<std::size_t>(
-                    problem.model->library[static_cast<std::size_t>(h.effects[static_cast<std::size_t>(e - p)])])];
+                const auto& effect =
+                    problem.model->campaign.description
+                        .effects[static_cast<std::size_t>(problem.model->library[static_cast<std::size_t>(h.effects[static_cast<std::size_t>(e - p)])])];
                 psi[e] = effect.two_sided ? 2.0 * u[e] - 1.0 : u[e];
             }
             cloud.psi.push_back(psi);
@@ -91,7 +92,8 @@ Eigen::MatrixXd Attributor::covariance_at(const Hypothesis& h, const Eigen::Vect
     return rows.size() == all_rows_.size() ? full : Eigen::MatrixXd(full(rows, rows));
 }
 
-inference::Inference Attributor::inference_of(const Hypothesis& h, const Eigen::VectorXd& y, const inference::Whitener& whitener, const std::vector<int>& rows) const {
+inference::Inference Attributor::inference_of(const Hypothesis& h, const Eigen::VectorXd& y, const inference::Whitener& whitener,
+                                              const std::vector<int>& rows) const {
     inference::Inference problem;
     problem.whitened_data = whitener.whiten(y(rows));
     problem.log_determinant = whitener.log_determinant();
@@ -110,8 +112,9 @@ inference::Inference Attributor::inference_of(const Hypothesis& h, const Eigen::
     problem.lower.head(p) = problem_->phi_lower;
     problem.upper.head(p) = problem_->phi_upper;
     for (Eigen::Index e = p; e < n; ++e) {
-        const auto& effect = problem_->model->campaign.description.effects[static_cast<std::size_t>(
-            problem_->model->library[static_cast<std::size_t>(h.effects[static_cast<std::size_t>(e - p)])])];
+        const auto& effect =
+            problem_->model->campaign.description
+                .effects[static_cast<std::size_t>(problem_->model->library[static_cast<std::size_t>(h.effects[static_cast<std::size_t>(e - p)])])];
         problem.lower[e] = effect.two_sided ? -1.0 : 0.0;
         problem.upper[e] = 1.0;
         problem.prior_deviation[e] = priors_.amplitude;

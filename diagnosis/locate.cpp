@@ -93,7 +93,8 @@ std::vector<DiagnosisWhere> locate(const Attributor& attributor, const Eigen::Ve
         w.observable = group.observable;
         w.region = group.region;
         w.regime = group.regime;
-        w.unit = problem.model->campaign.description.observables[static_cast<std::size_t>(data.points[static_cast<std::size_t>(group.points[0])].observable)].unit;
+        w.unit =
+            problem.model->campaign.description.observables[static_cast<std::size_t>(data.points[static_cast<std::size_t>(group.points[0])].observable)].unit;
         w.statistic = tests[g].statistic(r, group.points);
         w.degrees = static_cast<double>(tests[g].directions.rows());
         w.p = w.degrees > 0.0 ? inference::reference_p_value(w.statistic, reference[g]) : 1.0;

@@ -24,8 +24,7 @@ std::vector<int> library_indices(const Campaign& campaign, const std::vector<std
                             guess.empty() ? "effects of the campaign: " + list : "did you mean '" + guess + "'?", {file});
         }
         const int index = static_cast<int>(found - effects.begin());
-        if (std::find(indices.begin(), indices.end(), index) != indices.end())
-            throw bad_input("the library names '" + name + "' twice", "remove one", {file});
+        if (std::find(indices.begin(), indices.end(), index) != indices.end()) throw bad_input("the library names '" + name + "' twice", "remove one", {file});
         indices.push_back(index);
     }
     return indices;

@@ -69,7 +69,8 @@ void add_leverages(const Attributor& attributor, const Eigen::VectorXd& phi, Dia
         for (Eigen::Index i = 0; i < scaled.rows(); ++i) {
             const double c = eigen.eigenvectors()(i, d);
             if (std::abs(c) < 0.1) continue;
-            text += fmt::format("{}{:.2f} {}", text.empty() ? (c < 0 ? "−" : "") : (c < 0 ? " − " : " + "), std::abs(c), parameters[static_cast<std::size_t>(i)].name);
+            text += fmt::format("{}{:.2f} {}", text.empty() ? (c < 0 ? "−" : "") : (c < 0 ? " − " : " + "), std::abs(c),
+                                parameters[static_cast<std::size_t>(i)].name);
         }
         plan.directions.push_back({std::min(1.0, std::sqrt(eigen.eigenvalues()[d])), text});
     }
@@ -98,10 +99,12 @@ DiagnosisPlan make_plan(const Attributor& attributor, int points) {
             detect.push_back(separation(attributor, phi, theta, 0));
             const inference::Whitener whitener(covariance(problem, problem.fitted, phi, theta));
             const double whole =
-                whitener.whiten(predict(*problem.model, problem.fitted, phi, theta) - predict(*problem.model, problem.fitted, phi, Eigen::VectorXd::Zero(k))).squaredNorm();
+                whitener.whiten(predict(*problem.model, problem.fitted, phi, theta) - predict(*problem.model, problem.fitted, phi, Eigen::VectorXd::Zero(k)))
+                    .squaredNorm();
             absorbed.push_back(1.0 - std::min(1.0, detect.back() / std::max(whole, 1e-12)));
             for (int other = 0; other < k; ++other)
-                if (other != e) apart[static_cast<std::size_t>(other)].push_back(separation(attributor, phi, theta, hypothesis_index(attributor.hypotheses(), {other})));
+                if (other != e)
+                    apart[static_cast<std::size_t>(other)].push_back(separation(attributor, phi, theta, hypothesis_index(attributor.hypotheses(), {other})));
         }
         DiagnosisPlan::Effect row;
         row.name = effect.name;

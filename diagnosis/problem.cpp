@@ -115,7 +115,8 @@ private:
             names.push_back(campaign_.description.observables[o].name);
         }
         const std::string guess = closest_word(m.observable, names);
-        throw bad_input("the campaign has no observable '" + m.observable + "'", guess.empty() ? "use one of its observables" : "did you mean '" + guess + "'?", m.place);
+        throw bad_input("the campaign has no observable '" + m.observable + "'", guess.empty() ? "use one of its observables" : "did you mean '" + guess + "'?",
+                        m.place);
     }
 
     int output_index(int regime, int observable, int element) const {
@@ -169,8 +170,10 @@ private:
                 for (const auto& [regime, w] : weights)
                     for (const auto& [element, v] : elements) {
                         const int j = output_index(regime, observable, element);
-                        if (j < 0) known = false;
-                        else to[j] += w * v;
+                        if (j < 0)
+                            known = false;
+                        else
+                            to[j] += w * v;
                     }
             };
             fill(row, regimes.quadratic);
@@ -248,7 +251,8 @@ void refuse_duplicates(const Experiment& e) {
                                     (a.role != b.role ? ", once fitted and once held out" : ""),
                                 "one of them is filed under the wrong name: find out which, or remove one", a.place);
             if (same_name)
-                throw bad_input("'" + a.name + "' is measured twice in the same regime by the same instrument" + (a.role != b.role ? ", once fitted and once held out" : ""),
+                throw bad_input("'" + a.name + "' is measured twice in the same regime by the same instrument" +
+                                    (a.role != b.role ? ", once fitted and once held out" : ""),
                                 "average the repeats (repeats = n, uncertainty of the mean), or name different instruments", a.place);
         }
 }
@@ -278,8 +282,9 @@ Problem make_problem(std::shared_ptr<const Model> model, const Experiment& exper
         if (found->logarithmic && one.lower <= 0.0) throw bad_input("the range of '" + one.name + "' must be positive", "its scale is logarithmic", one.place);
         const double low = campaign::unit_coordinate(*found, one.lower), high = campaign::unit_coordinate(*found, one.upper);
         if (low < -1e-9 || high > 1.0 + 1e-9)
-            throw bad_input("the range of '" + one.name + "' leaves the campaign's, " + format_quantity(found->lower, "") + " to " + format_quantity(found->upper, ""),
-                            "narrow it, or extend the campaign: nothing is extrapolated", one.place);
+            throw bad_input(
+                "the range of '" + one.name + "' leaves the campaign's, " + format_quantity(found->lower, "") + " to " + format_quantity(found->upper, ""),
+                "narrow it, or extend the campaign: nothing is extrapolated", one.place);
         p.phi_lower[i] = low;
         p.phi_upper[i] = one.fixed ? low + 1e-6 : high;  // a known parameter keeps a width that no result can feel
     }

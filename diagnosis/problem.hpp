@@ -14,12 +14,12 @@ namespace pelletlab::diagnosis {
 
 /// One measured number in campaign units, and how the campaign's outputs make it.
 struct DataPoint {
-    int measurement = 0;   ///< index in Experiment::measurements
-    int observable = 0;    ///< of the campaign
-    double axis = 0.0;     ///< in the observable's axis unit; 0 for a single number
-    double level = 0.0;    ///< regime level (or its index when regimes are words)
+    int measurement = 0;  ///< index in Experiment::measurements
+    int observable = 0;   ///< of the campaign
+    double axis = 0.0;    ///< in the observable's axis unit; 0 for a single number
+    double level = 0.0;   ///< regime level (or its index when regimes are words)
     std::string regime;
-    int group = 0;         ///< observable × region × regime
+    int group = 0;  ///< observable × region × regime
     double value = 0.0, uncertainty = 0.0, offset_uncertainty = 0.0, tolerance = 0.0;
 };
 
@@ -32,8 +32,8 @@ struct Group {
 struct DataSet {
     std::vector<DataPoint> points;
     std::vector<Group> groups;
-    Eigen::MatrixXd from_outputs;      ///< points × campaign outputs
-    Eigen::MatrixXd interpolation;     ///< points × outputs: quadratic minus linear interpolation between regimes; zero where the campaign has the regime
+    Eigen::MatrixXd from_outputs;   ///< points × campaign outputs
+    Eigen::MatrixXd interpolation;  ///< points × outputs: quadratic minus linear interpolation between regimes; zero where the campaign has the regime
     Eigen::VectorXd value;
     Eigen::MatrixXd measurement_covariance, tolerance_covariance;
     bool empty() const { return points.empty(); }
@@ -41,8 +41,8 @@ struct DataSet {
 
 /// Everything that does not depend on the measured values; shared by all cases of one campaign.
 struct Model {
-    Campaign campaign;          ///< without excluded points, with the library's effects only
-    std::vector<int> library;   ///< campaign effect index of each library effect
+    Campaign campaign;         ///< without excluded points, with the library's effects only
+    std::vector<int> library;  ///< campaign effect index of each library effect
     inference::Emulator emulator;
     Eigen::Index parameters() const { return campaign.parameter.cols(); }
     Eigen::Index effects() const { return static_cast<Eigen::Index>(library.size()); }
@@ -58,12 +58,12 @@ struct Problem {
     DataSet fitted, held_out;
     std::vector<bool> is_calibration;  ///< of each fitted point: the laboratory calibrated on it
     Eigen::VectorXd phi_lower, phi_upper;
-    std::vector<std::string> notes;    ///< of what was assumed or left out
+    std::vector<std::string> notes;  ///< of what was assumed or left out
 };
 
-/// Joins experiment and model: units converted, regimes found or interpolated, ranges of the calibration parameters taken over. Throws Error(bad_input) for a unit that
-/// does not fit, an unknown observable, regime or parameter, a point outside the campaign's axis or regimes, data that are fitted and held out at once, the
-/// same picture or the same data twice, fewer data than free parameters.
+/// Joins experiment and model: units converted, regimes found or interpolated, ranges of the calibration parameters taken over. Throws Error(bad_input) for a
+/// unit that does not fit, an unknown observable, regime or parameter, a point outside the campaign's axis or regimes, data that are fitted and held out at
+/// once, the same picture or the same data twice, fewer data than free parameters.
 Problem make_problem(std::shared_ptr<const Model> model, const Experiment& experiment);
 
 /// Mean prediction at the data points of a set; θ has one element a library effect.
@@ -75,8 +75,8 @@ Eigen::MatrixXd covariance(const Problem& problem, const DataSet& data, const Ei
 /// Low-rank shapes that a gap may have when nobody knows its cause: for every observable offset, tilt and curvature along its axis, each also growing with the
 /// regime. Columns scaled to root mean square 1 in units of the points' standard deviations `sigma`.
 struct Distortions {
-    Eigen::MatrixXd shapes;            ///< points × directions
-    std::vector<std::string> family;   ///< of each direction: «surface: tilt»
+    Eigen::MatrixXd shapes;           ///< points × directions
+    std::vector<std::string> family;  ///< of each direction: «surface: tilt»
 };
 Distortions generic_distortions(const Problem& problem, const Eigen::VectorXd& sigma);
 

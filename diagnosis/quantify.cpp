@@ -82,10 +82,12 @@ std::vector<DiagnosisShrink> quantify(const Attributor& attributor, const Attrib
         s.before = miss_in_tolerances(data, data.value, prediction_of(attributor, data, 0, before_fit.mean));
         s.after = miss_in_tolerances(data, data.value, prediction_of(attributor, data, leading, after_fit.mean));
         s.placebo = placebo < 0 ? not_known
-                                : miss_in_tolerances(data, data.value, prediction_of(attributor, data, placebo, a.fits[static_cast<std::size_t>(placebo)].posterior.mean));
+                                : miss_in_tolerances(data, data.value,
+                                                     prediction_of(attributor, data, placebo, a.fits[static_cast<std::size_t>(placebo)].posterior.mean));
         double floor = 0.0;
         for (Eigen::Index i = 0; i < data.value.size(); ++i)
-            floor += data.measurement_covariance(i, i) / std::pow(data.points[static_cast<std::size_t>(i)].tolerance, 2) / static_cast<double>(data.value.size());
+            floor +=
+                data.measurement_covariance(i, i) / std::pow(data.points[static_cast<std::size_t>(i)].tolerance, 2) / static_cast<double>(data.value.size());
         s.floor = std::sqrt(floor);
         s.shrink = s.before > 0.0 ? 1.0 - s.after / s.before : 0.0;
         RandomStream random(seed, 0x71756e74);
@@ -93,7 +95,9 @@ std::vector<DiagnosisShrink> quantify(const Attributor& attributor, const Attrib
         std::vector<double> shrinks;
         for (int d = 0; d < 300 && !before_fit.draws.empty() && !after_fit.draws.empty(); ++d) {
             const Eigen::VectorXd y = data.value + noise.colour(inference::draw_student(random, data.value.size(), std::numeric_limits<double>::infinity()));
-            const auto pick = [&](const inference::Posterior& p) { return p.draws[static_cast<std::size_t>(random.uniform() * static_cast<double>(p.draws.size()))]; };
+            const auto pick = [&](const inference::Posterior& p) {
+                return p.draws[static_cast<std::size_t>(random.uniform() * static_cast<double>(p.draws.size()))];
+            };
             const double before = miss_in_tolerances(data, y, prediction_of(attributor, data, 0, pick(before_fit)));
             const double after = miss_in_tolerances(data, y, prediction_of(attributor, data, leading, pick(after_fit)));
             if (before > 0.0) shrinks.push_back(1.0 - after / before);

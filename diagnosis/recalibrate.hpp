@@ -9,9 +9,10 @@
 namespace pelletlab::diagnosis {
 
 struct Thresholds {
-    double temperature = 1.0;   ///< of p^{1/T}, best log score over the simulated cases
-    double claim = 0.90;        ///< an effect is named from this inclusion probability on: at least 0.90, and exceeded by ≤ 5 % of simulated nulls
-    double adequacy = 0.05;     ///< the best explanation is refused below this p value: the 3 % quantile over cases whose explanation is in the library, at most 0.05
+    double temperature = 1.0;  ///< of p^{1/T}, best log score over the simulated cases
+    double claim = 0.90;       ///< an effect is named from this inclusion probability on: at least 0.90, and exceeded by ≤ 5 % of simulated nulls
+    double adequacy =
+        0.05;  ///< the best explanation is refused below this p value: the 3 % quantile over cases whose explanation is in the library, at most 0.05
     int cases = 0;
     double null_false_alarm = 0.0;  ///< share of simulated nulls with any effect at or above `claim`
 };

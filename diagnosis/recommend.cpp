@@ -52,7 +52,8 @@ double direct_value(const Attributor& attributor, const Candidate& c, const Hypo
         const CampaignEffect& effect = d.effects[static_cast<std::size_t>(model.library[k])];
         if (effect.name == c.direct) return campaign::value_of_amplitude(effect, theta[static_cast<Eigen::Index>(k)]);
     }
-    throw bad_input("the candidate '" + c.name + "' measures '" + c.direct + "', which is no effect of the library and no parameter", "correct the name", c.place);
+    throw bad_input("the candidate '" + c.name + "' measures '" + c.direct + "', which is no effect of the library and no parameter", "correct the name",
+                    c.place);
 }
 
 Predictive predictive_of(const std::vector<Eigen::VectorXd>& values, const Eigen::MatrixXd& noise) {
@@ -71,7 +72,8 @@ double information(const std::vector<Predictive>& predictives, const std::vector
         if (probability[k] < 1e-4) continue;
         const int draws = std::max(10, static_cast<int>(150.0 * probability[k]));
         for (int d = 0; d < draws; ++d) {
-            const Eigen::VectorXd y = predictives[k].mean + whiteners[k].colour(inference::draw_student(random, predictives[k].mean.size(), std::numeric_limits<double>::infinity()));
+            const Eigen::VectorXd y =
+                predictives[k].mean + whiteners[k].colour(inference::draw_student(random, predictives[k].mean.size(), std::numeric_limits<double>::infinity()));
             double largest = -1e300, own = 0.0;
             std::vector<double> logs;
             for (std::size_t l = 0; l < predictives.size(); ++l) {

@@ -11,7 +11,8 @@ namespace {
 std::vector<int> by_inclusion(const Attribution& a) {
     std::vector<int> order(a.inclusion.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int x, int y) { return a.inclusion[static_cast<std::size_t>(x)] > a.inclusion[static_cast<std::size_t>(y)]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int x, int y) { return a.inclusion[static_cast<std::size_t>(x)] > a.inclusion[static_cast<std::size_t>(y)]; });
     return order;
 }
 

@@ -82,7 +82,8 @@ Emulator::Emulator(const TrainingRuns& runs, const Eigen::VectorXd& weight, cons
                 inputs.scatter[i] = scatter_.relative(inputs.phi.row(i).transpose(), inputs.theta.row(i).transpose());
         } else {
             left_over_ = fit_scatter(used_inputs, distance, modes);
-            for (Eigen::Index i = 0; i < n; ++i) z.row(i) /= std::sqrt(left_over_.factor(used_inputs.phi.row(i).transpose(), used_inputs.theta.row(i).transpose()));
+            for (Eigen::Index i = 0; i < n; ++i)
+                z.row(i) /= std::sqrt(left_over_.factor(used_inputs.phi.row(i).transpose(), used_inputs.theta.row(i).transpose()));
         }
     }
     rest_ = covariance_of_rest(basis_, outputs, inputs.scatter(used));

@@ -17,9 +17,9 @@ struct TrainingRuns {
 };
 
 struct EmulatorOptions {
-    double keep = 0.9995;     ///< share of the weighted variance in the basis
+    double keep = 0.9995;  ///< share of the weighted variance in the basis
     int largest_modes = 12;
-    int largest_pairs = 90;   ///< runs with two effects that are used, spread evenly over the campaign's order
+    int largest_pairs = 90;  ///< runs with two effects that are used, spread evenly over the campaign's order
 };
 
 /// How good the emulator is, from leave-one-point-out errors. `accepted`: the rms within 0.5 – 2 and fewer than 2 % beyond three. The error itself is part of
@@ -27,10 +27,10 @@ struct EmulatorOptions {
 struct EmulatorReport {
     int runs = 0, spoke_runs = 0, pair_runs = 0, modes = 0;
     double kept_variance = 0.0;
-    double standardised_rms = 0.0;  ///< before the error model is rescaled: 1 is right
+    double standardised_rms = 0.0;    ///< before the error model is rescaled: 1 is right
     double share_beyond_three = 0.0;  ///< of standardised errors after rescaling, < 0.02
-    double share_small = 0.0;       ///< outputs whose left-out error (scatter of the left-out run included) is below half of the scale that matters
-    double nu = 0.0;                ///< degrees of freedom of the error's Student t
+    double share_small = 0.0;         ///< outputs whose left-out error (scatter of the left-out run included) is below half of the scale that matters
+    double nu = 0.0;                  ///< degrees of freedom of the error's Student t
     double smallest_scatter = 1.0, largest_scatter = 1.0;  ///< standard deviation of single runs relative to the campaign's middle
     bool accepted = false;
 };

@@ -76,7 +76,8 @@ GaussianProcess::GaussianProcess(const SpokeInputs& x, const Eigen::VectorXd& y,
     if (!pairs.empty()) logs_ = fit_interaction(layout_, x_, y_, logs_);
 
     const Eigen::LLT<Eigen::MatrixXd> llt(spoke_covariance(layout_, logs_, x_));
-    if (llt.info() != Eigen::Success) throw numerical_failure("the emulator's covariance is singular", "check the campaign for equal runs with different results");
+    if (llt.info() != Eigen::Success)
+        throw numerical_failure("the emulator's covariance is singular", "check the campaign for equal runs with different results");
     factor_ = llt.matrixL();
     alpha_ = llt.solve(y_);
     kernel_ = SpokeEvaluator(layout_, logs_, x_);

@@ -18,7 +18,8 @@ struct PodBasis {
     Eigen::VectorXd residual(const Eigen::VectorXd& y) const { return y - field(scores(y)); }
 };
 
-/// Rows of `outputs` are runs; weight[j] = 1 / (scale that matters of output j). Keeps the fewest modes with `keep` of the weighted variance, at most `largest`.
+/// Rows of `outputs` are runs; weight[j] = 1 / (scale that matters of output j). Keeps the fewest modes with `keep` of the weighted variance, at most
+/// `largest`.
 PodBasis make_pod(const Eigen::MatrixXd& outputs, const Eigen::VectorXd& weight, double keep, int largest);
 
 }  // namespace pelletlab::inference

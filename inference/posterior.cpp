@@ -125,7 +125,8 @@ Mode find_mode(const Inference& p, const std::vector<Eigen::VectorXd>& starts, i
 double laplace_evidence(const Inference& p, const Mode& mode) {
     const Eigen::LLT<Eigen::MatrixXd> llt(mode.precision);
     const double log_det = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-    return log_likelihood(p, mode.chi2) + log_prior(p, mode.psi) + 0.5 * static_cast<double>(mode.psi.size()) * std::log(2.0 * std::numbers::pi) - 0.5 * log_det;
+    return log_likelihood(p, mode.chi2) + log_prior(p, mode.psi) + 0.5 * static_cast<double>(mode.psi.size()) * std::log(2.0 * std::numbers::pi) -
+           0.5 * log_det;
 }
 
 namespace {

@@ -21,9 +21,9 @@ struct Inference {
 
 struct Mode {
     Eigen::VectorXd psi;
-    Eigen::VectorXd residual;  ///< whitened, y − f(ψ)
-    Eigen::MatrixXd jacobian;  ///< whitened ∂f/∂ψ at the mode
-    Eigen::MatrixXd precision; ///< curvature of −log posterior, with a floor that spans the box
+    Eigen::VectorXd residual;   ///< whitened, y − f(ψ)
+    Eigen::MatrixXd jacobian;   ///< whitened ∂f/∂ψ at the mode
+    Eigen::MatrixXd precision;  ///< curvature of −log posterior, with a floor that spans the box
     double chi2 = 0.0;
     double log_posterior = 0.0;  ///< not normalised
 };

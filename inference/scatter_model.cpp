@@ -10,8 +10,9 @@ namespace pelletlab::inference {
 namespace {
 
 Eigen::VectorXd features(const Eigen::VectorXd& phi, const Eigen::VectorXd& theta) {
-    Eigen::VectorXd x(1 + phi.size() + theta.size());
-    x << 1.0, phi, theta.cwiseAbs();
+    const Eigen::VectorXd size = theta.cwiseAbs();
+    Eigen::VectorXd x(2 + 2 * phi.size() + theta.size());
+    x << 1.0, phi, phi.cwiseAbs2(), size, 0.5 * (size.sum() * size.sum() - size.squaredNorm());
     return x;
 }
 
@@ -27,7 +28,7 @@ double ScatterModel::relative(const Eigen::VectorXd& phi, const Eigen::VectorXd&
 
 ScatterModel fit_scatter(const SpokeInputs& runs, const std::vector<double>& distance, Eigen::Index dimensions) {
     const auto q = static_cast<double>(dimensions);
-    Eigen::MatrixXd x(runs.runs(), 1 + runs.phi.cols() + runs.theta.cols());
+    Eigen::MatrixXd x(runs.runs(), 2 + 2 * runs.phi.cols() + runs.theta.cols());
     for (Eigen::Index i = 0; i < runs.runs(); ++i) x.row(i) = features(runs.phi.row(i).transpose(), runs.theta.row(i).transpose()).transpose();
     ScatterModel best;
     double best_value = 1e300;

@@ -40,7 +40,8 @@ struct SpokeLayout {
 inline constexpr double spoke_constant_variance = 100.0;  // c: the mean is free
 
 /// Covariance matrix of the runs, noise included, and (if asked for) its derivatives by every logarithm.
-Eigen::MatrixXd spoke_covariance(const SpokeLayout& layout, const Eigen::VectorXd& logs, const SpokeInputs& x, std::vector<Eigen::MatrixXd>* derivatives = nullptr);
+Eigen::MatrixXd spoke_covariance(const SpokeLayout& layout, const Eigen::VectorXd& logs, const SpokeInputs& x,
+                                 std::vector<Eigen::MatrixXd>* derivatives = nullptr);
 
 /// The kernel of one fitted set of numbers against fixed runs, prepared for many evaluations.
 class SpokeEvaluator {

@@ -17,9 +17,11 @@ double normal_cdf(double x) {
 
 double normal_quantile(double p) {
     if (!(p > 0.0 && p < 1.0)) throw numerical_failure("a normal quantile was asked for at p = " + std::to_string(p));
-    constexpr std::array a{-3.969683028665376e+01, 2.209460984245205e+02, -2.759285104469687e+02, 1.383577518672690e+02, -3.066479806614716e+01, 2.506628277459239e+00};
+    constexpr std::array a{-3.969683028665376e+01, 2.209460984245205e+02,  -2.759285104469687e+02,
+                           1.383577518672690e+02,  -3.066479806614716e+01, 2.506628277459239e+00};
     constexpr std::array b{-5.447609879822406e+01, 1.615858368580409e+02, -1.556989798598866e+02, 6.680131188771972e+01, -1.328068155288572e+01};
-    constexpr std::array c{-7.784894002430293e-03, -3.223964580411365e-01, -2.400758277161838e+00, -2.549732539343734e+00, 4.374664141464968e+00, 2.938163982698783e+00};
+    constexpr std::array c{-7.784894002430293e-03, -3.223964580411365e-01, -2.400758277161838e+00,
+                           -2.549732539343734e+00, 4.374664141464968e+00,  2.938163982698783e+00};
     constexpr std::array d{7.784695709041462e-03, 3.224671290700398e-01, 2.445134137142996e+00, 3.754408661907416e+00};
     double x = 0.0;
     const auto tail = [&](double q) {
@@ -128,7 +130,7 @@ double quantile(std::vector<double> values, double p) {
 }
 
 Eigen::VectorXd halton(std::uint64_t i, int dimensions) {
-    constexpr std::array primes{2,  3,  5,  7,  11, 13, 17, 19, 23,  29,  31,  37,  41,  43,  47,  53,  59,  61,  67,  71,
+    constexpr std::array primes{2,  3,  5,  7,  11, 13,  17,  19,  23,  29,  31,  37,  41,  43,  47,  53,  59,  61,  67,  71,
                                 73, 79, 83, 89, 97, 101, 103, 107, 109, 113, 127, 131, 137, 139, 149, 151, 157, 163, 167, 173};
     if (dimensions > static_cast<int>(primes.size())) throw numerical_failure("more than 40 dimensions of a Halton sequence");
     Eigen::VectorXd x(dimensions);

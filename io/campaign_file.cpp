@@ -82,7 +82,8 @@ CampaignObservable read_observable(TomlTable& t, const CsvTable& csv) {
         return o;
     }
     const std::string pattern = t.text("columns");
-    if (std::count(pattern.begin(), pattern.end(), '*') != 1) throw t.problem("columns", "needs one «*» where the axis value stands", "write columns = \"z(*)\"");
+    if (std::count(pattern.begin(), pattern.end(), '*') != 1)
+        throw t.problem("columns", "needs one «*» where the axis value stands", "write columns = \"z(*)\"");
     o.axis_name = t.text("axis", "x");
     o.axis_unit = read_unit(t, "axis_unit", "1");
     const auto range = t.numbers("axis_range");
@@ -126,7 +127,8 @@ void read_rows(CampaignTable& campaign, const CsvTable& csv, const std::string& 
     const auto given = [&csv](std::size_t row, std::size_t column) {
         const double value = csv.number(row, column);
         if (std::isnan(value))
-            throw bad_input("the field of column '" + csv.columns[column] + "' is empty", "every run needs all parameters and amplitudes", csv.place(row, column));
+            throw bad_input("the field of column '" + csv.columns[column] + "' is empty", "every run needs all parameters and amplitudes",
+                            csv.place(row, column));
         return value;
     };
     campaign.rows.reserve(csv.fields.size());

@@ -19,7 +19,8 @@ struct CsvTable {
     /// Index of a column; Error(bad_input) with a suggestion when there is none.
     std::size_t column(const std::string& name) const;
     bool has_column(const std::string& name) const;
-    /// The field as a number; NaN for an empty field, «nan» or «NA». Error(bad_input) with line and column (counted in characters of the cells before) otherwise.
+    /// The field as a number; NaN for an empty field, «nan» or «NA». Error(bad_input) with line and column (counted in characters of the cells before)
+    /// otherwise.
     double number(std::size_t row, std::size_t column) const;
     Place place(std::size_t row, std::size_t column) const;
 };

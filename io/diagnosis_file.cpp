@@ -11,11 +11,17 @@ namespace pelletlab {
 using Json = nlohmann::json;
 
 // Readers and writers of all members, found by argument-dependent lookup.
-NLOHMANN_JSON_SERIALIZE_ENUM(Verdict, {{Verdict::no_gap, "NO-GAP"}, {Verdict::ambiguous_calibration, "AMBIGUOUS-CALIBRATION"}, {Verdict::effect, "EFFECT"}, {Verdict::set, "SET"},
-                                       {Verdict::effects, "EFFECTS"}, {Verdict::outside_library, "OUTSIDE-LIBRARY"}, {Verdict::underpowered, "UNDERPOWERED"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(Verdict, {{Verdict::no_gap, "NO-GAP"},
+                                       {Verdict::ambiguous_calibration, "AMBIGUOUS-CALIBRATION"},
+                                       {Verdict::effect, "EFFECT"},
+                                       {Verdict::set, "SET"},
+                                       {Verdict::effects, "EFFECTS"},
+                                       {Verdict::outside_library, "OUTSIDE-LIBRARY"},
+                                       {Verdict::underpowered, "UNDERPOWERED"}})
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Provenance, tool, version, git_hash, verb, seed, input_hashes)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(AuditItem, is_warning, text)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisPlan::Effect, name, detectability, smallest_detectability, absorbed_share, detectable_from, amplitude_text, expected_error)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisPlan::Effect, name, detectability, smallest_detectability, absorbed_share, detectable_from, amplitude_text,
+                                   expected_error)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisPlan::Leverage, group, largest)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisPlan::Direction, deviation, text)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisPlan, effects, separability, leverages, directions, noise_rms)
@@ -26,9 +32,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisCurve, name, observable, regime, uni
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisShrink, data, before, after, placebo, floor, shrink, lower, upper)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisNext, name, cost, information, per_cost)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Diagnosis::Inclusion, effect, probability)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Diagnosis, name, campaign, campaign_source, verdict, statement, named, notes, audit, plan, where, hypotheses, inclusion, temperature, claim_threshold,
-                                   adequacy_threshold, baseline_p, best_p, best_name, misfit_family, nearest, transfer_p, prior_dependent, how_far, confirmation, next, curves, emulator,
-                                   emulator_accepted, provenance)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Diagnosis, name, campaign, campaign_source, verdict, statement, named, notes, audit, plan, where, hypotheses, inclusion,
+                                   temperature, claim_threshold, adequacy_threshold, baseline_p, best_p, best_name, misfit_family, nearest, transfer_p,
+                                   prior_dependent, how_far, confirmation, next, curves, emulator, emulator_accepted, provenance)
 
 namespace io {
 
@@ -59,8 +65,10 @@ void write_diagnosis(const Diagnosis& diagnosis, const std::filesystem::path& fi
 Diagnosis read_diagnosis(const std::filesystem::path& file) {
     try {
         Json json = Json::parse(read_text(file));
-        if (!json.is_object() || json.value("format", "") != format_name) throw bad_input("this is no diagnosis of pelletlab", "name a diagnosis.json", {file.string()});
-        if (json.at("format_version") != format_version) throw bad_input("this diagnosis has another format version", "run pelletlab diagnose run again", {file.string()});
+        if (!json.is_object() || json.value("format", "") != format_name)
+            throw bad_input("this is no diagnosis of pelletlab", "name a diagnosis.json", {file.string()});
+        if (json.at("format_version") != format_version)
+            throw bad_input("this diagnosis has another format version", "run pelletlab diagnose run again", {file.string()});
         nulls_to_nan(json["diagnosis"]);
         return json.at("diagnosis").get<Diagnosis>();
     } catch (const Json::exception& error) {

@@ -35,9 +35,10 @@ MeasurementRole read_role(TomlTable& t) {
 }
 
 Error no_uncertainty(const TomlTable& t, const std::string& name) {
-    return bad_input("the measurement '" + name + "' has no uncertainty",
-                     "give uncertainty = …, the standard error of the mean (spread of the repeats / √repeats), or an uncertainty_column; without it nothing can be said",
-                     t.place());
+    return bad_input(
+        "the measurement '" + name + "' has no uncertainty",
+        "give uncertainty = …, the standard error of the mean (spread of the repeats / √repeats), or an uncertainty_column; without it nothing can be said",
+        t.place());
 }
 
 void read_profile(TomlTable& t, Measurement& m, const std::filesystem::path& folder) {
@@ -125,7 +126,8 @@ Candidate read_candidate(TomlTable& t) {
     c.observable = t.text("observable", "");
     c.regime = t.text("regime", "");
     if (c.direct.empty() == c.observable.empty())
-        throw t.problem("name", "is neither a direct measurement nor a new observation", "give either measures = \"effect or parameter\" or observable and regime");
+        throw t.problem("name", "is neither a direct measurement nor a new observation",
+                        "give either measures = \"effect or parameter\" or observable and regime");
     return c;
 }
 
@@ -164,7 +166,8 @@ Experiment read_experiment(const std::filesystem::path& file) {
         r.observable = one.text("observable");
         r.name = one.text("name");
         const auto range = one.numbers("range");
-        if (!range || range->size() != 2 || !((*range)[0] < (*range)[1])) throw one.problem("range", "must be two ascending numbers", "write range = [-0.6, -0.3]");
+        if (!range || range->size() != 2 || !((*range)[0] < (*range)[1]))
+            throw one.problem("range", "must be two ascending numbers", "write range = [-0.6, -0.3]");
         r.lower = (*range)[0];
         r.upper = (*range)[1];
         e.regions.push_back(r);

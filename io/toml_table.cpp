@@ -39,7 +39,8 @@ Error TomlTable::problem(const std::string& key, const std::string& what, const 
 const toml::node& TomlTable::require(const std::string& key, const std::string& kind) {
     const toml::node* node = find(key);
     if (node != nullptr) return *node;
-    throw bad_input((path_.empty() ? "the file" : path_) + " has no '" + key + "'", "add " + key + " = " + kind + " (docs/diagnosis.md lists all keys)", place_);
+    throw bad_input((path_.empty() ? "the file" : path_) + " has no '" + key + "'", "add " + key + " = " + kind + " (docs/diagnosis.md lists all keys)",
+                    place_);
 }
 
 std::string TomlTable::text(const std::string& key) {

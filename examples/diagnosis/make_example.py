@@ -16,7 +16,7 @@ def drum(rpm, sliding, restitution, rolling=0.0, fill=0.0, wall=0.0):
     z = []
     for x in XS:
         height = slope * x - 3 * restitution * v * x * x
-        height += rolling / 0.4 * (-7 * x * (1 - 0.4 * v) + 3.0 * (x * x - 0.15) * (1.2 - v))
+        height += rolling / 0.4 * (-7 * x * (1 - 0.4 * v) + 14.0 * (x * x - 0.15) * (1.2 - v))
         height += fill * (2.2 - 0.5 * x * x)
         height += wall * (4.0 * math.exp(-((x - 0.35) / 0.18) ** 2) * (0.4 + v))
         z.append(height)

@@ -5,21 +5,22 @@ import re
 from harness import BAD_INPUT, USAGE, PelletlabTest
 
 VERBS = [["shape"], ["fill"], ["drum"], ["demo"], ["observe"], ["observe", "tube"], ["observe", "pile"], ["observe", "drum"], ["mesh"], ["mesh", "check"], ["mesh", "assets"], ["case"], ["case", "new"], ["case", "check"],
-         ["case", "schema"], ["case", "reference"]]
+         ["case", "schema"], ["case", "reference"], ["diagnose"], ["diagnose", "audit"], ["diagnose", "plan"], ["diagnose", "run"], ["diagnose", "report"],
+         ["diagnose", "blind"], ["diagnose", "blind", "make"], ["diagnose", "blind", "run"], ["diagnose", "blind", "score"]]
 
 
 class Usage(PelletlabTest):
     def test_help_of_every_verb_has_an_example(self):
         for verb in VERBS:
             help_text = self.succeeds(*verb, "--help").out
-            if verb in (["case"], ["mesh"], ["observe"]):  # groups: their verbs are listed, each with its example
+            if verb in (["case"], ["mesh"], ["observe"], ["diagnose"], ["diagnose", "blind"]):  # groups: their verbs are listed, each with its example
                 self.assertIn("example: pelletlab", help_text, verb)
             else:
                 self.assertIn("example: pelletlab " + " ".join(verb), help_text, verb)
 
     def test_help_lists_every_verb_and_shows_the_chain(self):
         text = self.succeeds("--help").out
-        for verb in ("shape", "fill", "drum", "observe", "demo", "mesh", "case"):
+        for verb in ("shape", "fill", "drum", "observe", "demo", "mesh", "case", "diagnose"):
             self.assertRegex(text, rf"(?m)^\s+{verb}\b")
         self.assertIn("pelletlab shape", text)
 

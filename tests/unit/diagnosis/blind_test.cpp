@@ -52,7 +52,8 @@ TEST(Blind, ScoresARightAndAWrongSet) {
         return false;
     };
     const BlindScore good = score_blind(labels, right), bad = score_blind(labels, wrong);
-    for (const char* row : {"false alarm", "single effect ranked first, bar", "outside the library (λ ≥ 36): said so", "outside the library (λ ≥ 36): a wrong", "group with the largest", "false discoveries", "calibration of P"}) {
+    for (const char* row : {"false alarm", "single effect ranked first, bar", "outside the library (λ ≥ 36): said so", "outside the library (λ ≥ 36): a wrong",
+                            "group with the largest", "false discoveries", "calibration of P"}) {
         EXPECT_TRUE(find(good, row)) << row;
         EXPECT_FALSE(find(bad, row)) << row;
     }

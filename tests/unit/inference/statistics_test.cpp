@@ -19,9 +19,9 @@ TEST(Statistics, NormalQuantileInvertsTheDistribution) {
 
 TEST(Statistics, ChiSquaredSurvivalHasItsClosedForms) {
     for (const double x : {0.1, 1.0, 5.0, 40.0}) {
-        EXPECT_NEAR(chi_squared_survival(x, 2), std::exp(-x / 2), 1e-13);                             // two degrees: exponential
-        EXPECT_NEAR(chi_squared_survival(x, 1), std::erfc(std::sqrt(x / 2)), 1e-12);                  // one degree: normal tails
-        EXPECT_NEAR(chi_squared_survival(x, 4), std::exp(-x / 2) * (1 + x / 2), 1e-13);               // four degrees
+        EXPECT_NEAR(chi_squared_survival(x, 2), std::exp(-x / 2), 1e-13);                // two degrees: exponential
+        EXPECT_NEAR(chi_squared_survival(x, 1), std::erfc(std::sqrt(x / 2)), 1e-12);     // one degree: normal tails
+        EXPECT_NEAR(chi_squared_survival(x, 4), std::exp(-x / 2) * (1 + x / 2), 1e-13);  // four degrees
     }
 }
 
