@@ -47,11 +47,13 @@ void run_all(const DiagnoseOptions& options) {
     const Experiment experiment = io::read_experiment(options.experiment);
     const fs::path folder = options.output.empty() ? fs::path("out") / ("diagnosis-" + experiment.name) : fs::path(options.output);
     const Campaign campaign = campaign::assemble(io::read_campaign(experiment.campaign_file));
-    io::prepare_output_folder(folder);
+    const diagnosis::Problem problem =
+        diagnosis::make_problem(diagnosis::make_model(campaign, experiment.library, experiment.exclude, experiment.file), experiment);
+    io::prepare_output_folder(folder);  // after all that can be wrong with the input, before the long work
     ProgressPrinter printer;
     diagnosis::DiagnoseOptions how;
     how.progress = printer.sink();
-    Diagnosis d = diagnosis::diagnose(campaign, experiment, how);
+    Diagnosis d = diagnosis::diagnose(problem, how);
     printer.finish();
     d.provenance.version = build_version();
     d.provenance.git_hash = build_git_hash();

@@ -76,7 +76,7 @@ TEST(Readers, EveryMistakeHasItsMessage) {
     Changed("experiment.toml", "observable = \"surface\"", "observable = \"surfaces\"").refuses("no observable 'surfaces'");
     Changed("experiment.toml", "measured_50rpm.csv", "measured_20rpm.csv").refuses("same data");
     Changed("experiment.toml", "measured_35rpm.csv", "measured_20rpm.csv").refuses("once fitted and once held out");
-    Changed("experiment.toml", "seed = 1", "sead = 1").refuses("did you mean 'settings.seed'");
+    Changed("experiment.toml", "seed = 1", "sead = 1").refuses("did you mean 'seed'");
     Changed("experiment.toml", "measures = \"fill\"", "measures_ = \"fill\"").refuses("neither a direct measurement");
     Changed("measured_20rpm.csv", "-0.45", "-0.75").refuses("does not ascend");
     Changed("measured_20rpm.csv", "-0.45,", "-0.45,x").refuses("is no number");

@@ -78,7 +78,7 @@ TEST(GaussianProcess, LearnsASmoothResponseAndItsNoise) {
         theta[static_cast<Eigen::Index>(i % 2)] = 0.8;
         worst = std::max(worst, std::abs(gp.mean(phi, theta) - response(phi, theta)));
     }
-    EXPECT_LT(worst, 0.10);  // twice the noise of one run
+    EXPECT_LT(worst, 0.15);  // three times the noise of one run
     EXPECT_NEAR(std::sqrt(gp.noise_variance()), 0.05, 0.02);
 
     // Leave-one-out by the closed form against a process that never saw the run (same numbers of the kernel are not refitted, so compare loosely in size only).
