@@ -5,18 +5,18 @@
 #include <span>
 #include <vector>
 
+#include "apps/shape_report.hpp"
 #include "apps/stage.hpp"
 #include "apps/terminal.hpp"
 #include "core/error.hpp"
-#include "core/units.hpp"
 #include "io/clump_file.hpp"
 #include "io/files.hpp"
 #include "meshes/check.hpp"
+#include "meshes/mass_properties.hpp"
 #include "meshes/read_mesh.hpp"
 #include "meshes/signed_distance.hpp"
 #include "report/pictures.hpp"
-#include "shapegen/hand_made.hpp"
-#include "shapegen/make_clump.hpp"
+#include "shapegen/baselines/baselines.hpp"
 #include "shapegen/quality.hpp"
 
 namespace pelletlab::apps {
@@ -27,85 +27,47 @@ namespace {
 
 constexpr const char* stage_hash = "stage";
 
-std::string mm(double metres) {
-    return fmt::format("{:.4f} mm", 1e3 * metres);
-}
-std::string percent(double share) {
-    return fmt::format("{:+.2f} %", 100.0 * share);
-}
-
-const char* name_of(MassSource source) {
-    switch (source) {
-        case MassSource::target_mesh:
-            return "the mesh";
-        case MassSource::union_of_spheres:
-            return "the union of the spheres";
-        case MassSource::density_matched_union:
-            return "the union of the spheres, density matched to the mesh's mass";
-    }
-    return "";
-}
-
 StageKey key_of(const ShapeRequest& request) {
+    const shapegen::ClumpSettings& s = request.settings;
     StageKey key;
     key.verb = "shape";
-    key.settings = fmt::format("unit {} n {} density {:.17g} min_radius {:.17g} mass {} seed {}", request.unit, request.sphere_count, request.density,
-                               request.min_radius, static_cast<int>(request.mass_source), request.seed);
-    key.inputs["mesh"] = io::sha256_of_file(request.mesh_file);
+    key.settings = describe(request.body) + fmt::format(" method {} volume_matched {} n {} density {:.17g} min_radius {:.17g} mass {} seed {} effort {:.17g}",
+                                                        request.method, request.volume_matched, s.fit.sphere_count, s.density, s.fit.min_radius,
+                                                        static_cast<int>(s.mass_source), s.fit.seed, s.fit.effort);
+    key.inputs["mesh"] = hash_of(request.body);
     return key;
 }
 
 bool is_up_to_date(const ShapeRequest& request, const StageKey& key, const fs::path& picture) {
     if (request.force || !fs::exists(request.output) || (request.picture && !fs::exists(picture))) return false;
-    const auto hashes = io::read_clump(request.output).provenance.input_hashes;
-    const auto found = hashes.find(stage_hash);
-    return found != hashes.end() && found->second == key.fingerprint();
+    const ClumpTemplate clump = io::read_clump(request.output);
+    const auto found = clump.provenance.input_hashes.find(stage_hash);
+    return found != clump.provenance.input_hashes.end() && found->second == key.fingerprint() && fs::exists(request.output.parent_path() / clump.mesh_file);
 }
 
 fs::path picture_beside(const fs::path& clump_file) {
-    std::string name = clump_file.filename().string();
-    for (const std::string suffix : {".toml", ".clump"})
-        if (name.ends_with(suffix)) name.resize(name.size() - suffix.size());
-    return clump_file.parent_path() / (name + ".png");
+    return stem_of(clump_file).string() + ".png";
 }
 
-void print_mesh(const meshes::CheckedMesh& checked, const fs::path& file) {
-    const Vec3 extent = 1e3 * checked.report.extent;
-    print_line(fmt::format("Body {}: {} triangles, {:.4g} x {:.4g} x {:.4g} mm, {:.5g} mm³, closed", file.filename().string(), checked.report.faces, extent.x(),
-                           extent.y(), extent.z(), 1e9 * checked.report.volume));
-    for (const std::string& repair : checked.report.repairs) print_line("  repaired: " + repair);
+std::string name_of_result(const ShapeRequest& request) {
+    if (request.method == fit_method) return "fitted";
+    return find_method(request.method).name + (request.volume_matched ? ", volume-matched" : "");
 }
 
-void print_mass(const ClumpTemplate& clump) {
-    const MassProperties& mass = clump.rigid.mass_properties;
-    const Vec3 inertia = mass.principal_inertia;
-    print_pairs({{"mass properties from", name_of(clump.mass_source)},
-                 {"mass", fmt::format("{:.4f} mg at {:.5g} kg/m³", 1e6 * mass.mass, mass.density)},
-                 {"principal inertia", fmt::format("{:.5g}  {:.5g}  {:.5g} kg m²", inertia.x(), inertia.y(), inertia.z())}});
-}
-
-std::vector<std::string> quality_row(const std::string& name, std::size_t spheres, const FitQuality& q) {
-    return {name,
-            std::to_string(spheres),
-            percent(q.volume_error),
-            percent(q.inertia_error.cwiseAbs().maxCoeff() == q.inertia_error.maxCoeff() ? q.inertia_error.maxCoeff() : q.inertia_error.minCoeff()),
-            mm(q.both.mean),
-            mm(q.both.rms),
-            mm(q.both.max),
-            fmt::format("{:.2f} %", 100.0 * q.symmetric_difference)};
-}
-
-void print_quality(const ClumpTemplate& clump, const TriangleMesh& body, int study_shape) {
-    std::vector<std::vector<std::string>> rows{{"shape", "spheres", "volume", "worst inertia", "mean", "rms", "max", "sym. difference"}};
-    rows.push_back(quality_row("fitted", clump.rigid.spheres.size(), clump.quality));
-    if (study_shape > 0) {
+void print_quality(const ShapeRequest& request, const shapegen::MadeClump& made, const TriangleMesh& body) {
+    std::vector<QualityRow> rows{{name_of_result(request), made.fit.spheres.size(), made.clump.quality}};
+    if (!request.against.empty()) {
         const auto exact = meshes::exact_signed_distance(body);
-        const std::vector<Sphere> spheres = shapegen::hand_made_shape(study_shape);
-        rows.push_back(quality_row(fmt::format("study's Shape {}", study_shape), spheres.size(), shapegen::measure_quality(spheres, body, *exact)));
+        const double volume = meshes::mass_properties(body, 1.0).volume;
+        for (const std::string& id : request.against) {
+            const std::vector<Sphere> spheres =
+                spheres_of_method(id, body, *exact, static_cast<std::uint32_t>(made.fit.spheres.size()), request.settings.fit.seed);
+            rows.push_back({find_method(id).name, spheres.size(), shapegen::measure_quality(spheres, body, *exact)});
+            const std::vector<Sphere> matched = shapegen::baselines::volume_matched(spheres, volume);
+            rows.push_back({"  the same, volume-matched", matched.size(), shapegen::measure_quality(matched, body, *exact)});
+        }
     }
-    print_line("Distance between the surface of the clump and the body, both ways:");
-    print_table(rows);
-    print_line(fmt::format("  (error of the distance query itself: at most {:.1e} mm)", 1e3 * clump.quality.distance_error_bound));
+    print_quality_table(rows);
 }
 
 void write_picture(const TriangleMesh& body, const shapegen::FitResult& fit, const fs::path& file) {
@@ -115,45 +77,66 @@ void write_picture(const TriangleMesh& body, const shapegen::FitResult& fit, con
     print_written(file, "the body, and the clump coloured by its distance from it");
 }
 
+void check(const ShapeRequest& request) {
+    find_method(request.method);
+    for (const std::string& id : request.against)
+        if (find_method(id).id == fit_method) throw usage_error("the fit cannot be compared with itself", "name other methods: --against shape4,openvdb");
+    if (request.method == fit_method && request.volume_matched)
+        throw usage_error("the fit has the body's volume anyway", "leave --volume-matched away, or choose another --method");
+}
+
 }  // namespace
+
+fs::path stem_of(const fs::path& clump_file) {
+    std::string name = clump_file.filename().string();
+    for (const std::string suffix : {".toml", ".clump"})
+        if (name.ends_with(suffix)) name.resize(name.size() - suffix.size());
+    return clump_file.parent_path() / name;
+}
+
+shapegen::MadeClump make_by_method(const TriangleMesh& body, const std::string& method, bool volume_matched, const shapegen::ClumpSettings& settings,
+                                   const ProgressSink& progress) {
+    if (method == fit_method) return shapegen::make_clump(body, settings, progress);
+    if (progress) progress({"placing spheres by " + find_method(method).name, 0.0, 1.0, "", 0.0, "", ""});
+    const auto exact = meshes::exact_signed_distance(body);
+    shapegen::MadeClump made;
+    made.fit.spheres = spheres_of_method(method, body, *exact, settings.fit.sphere_count, settings.fit.seed);
+    if (volume_matched) made.fit.spheres = shapegen::baselines::volume_matched(made.fit.spheres, meshes::mass_properties(body, 1.0).volume);
+    made.clump = shapegen::judged_template(made.fit.spheres, body, *exact, settings.density, settings.mass_source);
+    return made;
+}
 
 void run_shape(const ShapeRequest& request) {
     const Stopwatch stopwatch;
-    const TriangleMesh as_read = meshes::read_mesh(request.mesh_file, request.unit);
+    check(request);
     const StageKey key = key_of(request);
     const fs::path picture = picture_beside(request.output);
     if (is_up_to_date(request, key, picture)) {
         print_line(request.output.string() + " is up to date (same mesh, same settings, same program)");
         return;
     }
-    const meshes::CheckedMesh checked = meshes::require_closed_body(as_read);
-    print_mesh(checked, request.mesh_file);
-
+    BodyOnDisk body(request.body, stem_of(request.output));
     const fs::path folder = request.output.has_parent_path() ? request.output.parent_path() : fs::path(".");
-    io::prepare_output_folder(folder);
 
     ProgressPrinter progress;
-    shapegen::ClumpSettings settings;
-    settings.fit.sphere_count = request.sphere_count;
-    settings.fit.min_radius = request.min_radius;
-    settings.fit.seed = request.seed;
-    settings.density = request.density;
-    settings.mass_source = request.mass_source;
-    shapegen::MadeClump made = shapegen::make_clump(checked.mesh, settings, progress.sink());
+    shapegen::MadeClump made = make_by_method(body.mesh(), request.method, request.volume_matched, request.settings, progress.sink());
     progress.finish();
     throw_if_interrupted();
 
-    made.clump.rigid.name = request.mesh_file.stem().string();
-    made.clump.mesh_file = fs::proximate(fs::absolute(request.mesh_file), fs::absolute(folder)).generic_string();
-    made.clump.mesh_unit = request.unit;
-    made.clump.mesh_hash = key.inputs.at("mesh");
-    made.clump.provenance = provenance_of(key, request.seed);
+    made.clump.rigid.name = request.body.parametric.empty() ? request.body.mesh_file.stem().string() : stem_of(request.output).filename().string();
+    made.clump.mesh_file = fs::proximate(fs::absolute(body.file()), fs::absolute(folder)).generic_string();
+    made.clump.mesh_unit = body.unit();
+    made.clump.mesh_hash = io::sha256_of_file(body.file());
+    made.clump.provenance = provenance_of(key, request.settings.fit.seed);
     made.clump.provenance.input_hashes[stage_hash] = key.fingerprint();
 
-    print_mass(made.clump);
-    print_quality(made.clump, checked.mesh, request.study_shape);
-    if (request.picture) write_picture(checked.mesh, made.fit, picture);
+    print_mass_of(made.clump, name_of(made.clump.mass_source));
+    print_quality(request, made, body.mesh());
+    io::prepare_output_folder(folder);
+    if (request.picture) write_picture(body.mesh(), made.fit, picture);
     io::write_clump(made.clump, request.output);
+    body.keep();
+    if (body.made_here()) print_written(body.file(), "the body");
     print_written(request.output, fmt::format("clump of {} spheres", made.clump.rigid.spheres.size()));
     print_line(fmt::format("  took {}, peak memory {:.0f} MB", duration_text(stopwatch.seconds()), peak_memory_megabytes()));
 }

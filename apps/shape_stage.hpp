@@ -4,28 +4,36 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "apps/shape_body.hpp"
+#include "apps/shape_methods.hpp"
 #include "core/clump_template.hpp"
 #include "core/triangle_mesh.hpp"
+#include "shapegen/make_clump.hpp"
 
 namespace pelletlab::apps {
 
 struct ShapeRequest {
-    std::filesystem::path mesh_file;
-    std::string unit;  ///< of the mesh: «mm»
-    std::uint32_t sphere_count = 24;
-    double density = 1800.0;  ///< [kg/m³]
-    double min_radius = 0.0;  ///< [m]
-    MassSource mass_source = MassSource::target_mesh;
-    std::uint64_t seed = 1;
+    BodyRequest body;
+    std::string method = fit_method;   ///< of shape_methods.hpp
+    bool volume_matched = false;       ///< methods other than the fit: one common radius offset gives the union the body's volume
+    shapegen::ClumpSettings settings;  ///< of the fit; density and mass source of every method
     std::filesystem::path output = "pellet.clump.toml";
-    bool picture = true;  ///< <output without .clump.toml>.png beside it
-    int study_shape = 0;  ///< 1 … 4: print the figures of the study's hand-made shape beside
-    bool force = false;   ///< make it again although nothing has changed
+    bool picture = true;               ///< <output without .clump.toml>.png beside it
+    std::vector<std::string> against;  ///< methods whose figures are printed beside, as drawn and volume-matched
+    bool force = false;                ///< make it again although nothing has changed
 };
 
 /// Reads and checks the mesh, fits, measures, writes the template and its picture, and prints what a person wants to know.
 void run_shape(const ShapeRequest& request);
+
+/// The clump by the method of the request: fitted, or made by another method and judged by the same code. Spheres of `fit` are in the frame of the mesh.
+shapegen::MadeClump make_by_method(const TriangleMesh& body, const std::string& method, bool volume_matched, const shapegen::ClumpSettings& settings,
+                                   const ProgressSink& progress);
+
+/// The output's path without .clump.toml: pictures and meshes that go with it start with that.
+std::filesystem::path stem_of(const std::filesystem::path& clump_file);
 
 /// The pellet's true surface in the body frame of its clump, from the mesh file that the clump names (relative to the clump file).
 /// Throws Error(bad_input) when that file is gone or no longer the one that the clump was made from.

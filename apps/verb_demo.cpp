@@ -54,11 +54,11 @@ void run_demo(const DemoOptions& options) {
 
     run(fmt::format("shape: {} spheres for the study's 3.12 x 2.96 mm cylinder", options.spheres), [&]() -> std::string {
         ShapeRequest shape;
-        shape.mesh_file = mesh;
-        shape.unit = "mm";
-        shape.sphere_count = options.spheres;
+        shape.body.mesh_file = mesh;
+        shape.body.unit = "mm";
+        shape.settings.fit.sphere_count = options.spheres;
         shape.output = out / "pellet.clump.toml";
-        shape.study_shape = 4;
+        shape.against = {"shape4"};
         shape.force = options.force;
         run_shape(shape);
         return {};

@@ -18,9 +18,10 @@ import test_meshes
 import test_observe
 import test_resume
 import test_runs
+import test_shapes
 import test_usage
 
-MODULES = (test_usage, test_meshes, test_observe, test_cases, test_diagnose, test_runs, test_resume)
+MODULES = (test_usage, test_meshes, test_observe, test_cases, test_diagnose, test_runs, test_resume, test_shapes)
 CLASSES = {name: one for module in MODULES for name, one in inspect.getmembers(module, inspect.isclass)
            if issubclass(one, harness.PelletlabTest) and one is not harness.PelletlabTest}
 

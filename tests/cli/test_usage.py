@@ -4,8 +4,12 @@ import re
 
 from harness import BAD_INPUT, USAGE, PelletlabTest
 
-VERBS = [["shape"], ["fill"], ["drum"], ["demo"], ["observe"], ["observe", "tube"], ["observe", "pile"], ["observe", "drum"], ["mesh"], ["mesh", "check"], ["mesh", "assets"], ["case"], ["case", "new"], ["case", "check"],
-         ["case", "schema"], ["case", "reference"], ["diagnose"], ["diagnose", "audit"], ["diagnose", "plan"], ["diagnose", "run"], ["diagnose", "report"],
+VERBS = [["shape"], ["shape", "export"], ["shape", "import"],
+         ["fill"], ["drum"], ["demo"],
+         ["observe"], ["observe", "tube"], ["observe", "pile"], ["observe", "drum"],
+         ["mesh"], ["mesh", "check"], ["mesh", "make"], ["mesh", "assets"],
+         ["case"], ["case", "new"], ["case", "check"], ["case", "schema"], ["case", "reference"],
+         ["diagnose"], ["diagnose", "audit"], ["diagnose", "plan"], ["diagnose", "run"], ["diagnose", "report"],
          ["diagnose", "blind"], ["diagnose", "blind", "make"], ["diagnose", "blind", "run"], ["diagnose", "blind", "score"]]
 
 

@@ -1,0 +1,32 @@
+// What the shape verbs tell a person: mass properties, distances between clump and body.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/clump_template.hpp"
+
+namespace pelletlab::apps {
+
+std::string millimetres(double metres);    ///< «0.0193 mm»
+std::string signed_percent(double share);  ///< «−8.73 %»
+
+/// «the mesh», «the union of the spheres», …
+std::string name_of(MassSource source);
+
+/// Mass, density and principal inertia, and where they come from.
+void print_mass_of(const ClumpTemplate& clump, const std::string& source);
+
+struct QualityRow {
+    std::string name;
+    std::size_t spheres = 0;
+    FitQuality quality;
+};
+
+/// Volume, inertia and distances of each, one under the other.
+void print_quality_table(const std::vector<QualityRow>& rows);
+
+/// The moment with the largest error, with its sign.
+double worst_inertia_error(const FitQuality& quality);
+
+}  // namespace pelletlab::apps
