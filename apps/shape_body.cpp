@@ -7,6 +7,7 @@
 #include "io/files.hpp"
 #include "meshes/check.hpp"
 #include "meshes/named_body.hpp"
+#include "meshes/pellet_makers.hpp"
 #include "meshes/read_mesh.hpp"
 
 namespace pelletlab::apps {
@@ -41,30 +42,34 @@ meshes::CheckedMesh checked(const BodyRequest& request, const TriangleMesh& as_r
 }  // namespace
 
 std::string describe(const BodyRequest& request) {
-    return fmt::format("body {} unit {} repair {}", request.parametric, request.unit, request.repair ? static_cast<int>(*request.repair) : -1);
+    return fmt::format("body {} unit {} repair {} stretch {:.17g} {:.17g} {:.17g}", request.parametric, request.unit,
+                       request.repair ? static_cast<int>(*request.repair) : -1, request.stretch.x(), request.stretch.y(), request.stretch.z());
 }
 
 std::string hash_of(const BodyRequest& request) {
     return request.parametric.empty() ? io::sha256_of_file(request.mesh_file) : io::sha256_of_text(request.parametric);
 }
 
-BodyOnDisk::BodyOnDisk(const BodyRequest& request, const fs::path& stem) {
+BodyOnDisk::BodyOnDisk(const BodyRequest& request, const fs::path& stem, bool quiet) {
     TriangleMesh made;
     if (request.parametric.empty()) {
         const TriangleMesh as_read = meshes::read_mesh(request.mesh_file, request.unit);
         meshes::CheckedMesh found = checked(request, as_read);
-        say(found.report, request.mesh_file.filename().string());
+        if (!quiet) say(found.report, request.mesh_file.filename().string());
         file_ = request.mesh_file;
         unit_ = request.unit;
         mesh_ = std::move(found.mesh);
-        if (!request.repair || found.report.repairs.empty()) return;
+        const bool as_it_is = request.stretch == Vec3::Ones();
+        if (as_it_is && (!request.repair || found.report.repairs.empty())) return;
         made = std::move(mesh_);
-        file_ = stem.string() + ".repaired.stl";
+        file_ = stem.string() + (as_it_is ? ".repaired.stl" : ".stl");
     } else {
         made = meshes::require_closed_body(meshes::make_named_body(request.parametric)).mesh;
         file_ = stem.string() + ".stl";
     }
+    if (request.stretch != Vec3::Ones()) made = meshes::stretched(std::move(made), request.stretch);
     // Whoever reads the clump later finds the body in this file, rounded to 32 bits: so the clump is made of what the file says.
+    for (fs::path folder = fs::absolute(file_).parent_path(); !fs::exists(folder); folder = folder.parent_path()) made_folders_.push_back(folder);
     io::prepare_output_folder(file_.has_parent_path() ? file_.parent_path() : fs::path("."));
     unit_ = made_unit;
     const std::string bytes = meshes::stl_bytes(made, unit_);
@@ -77,18 +82,23 @@ BodyOnDisk::BodyOnDisk(const BodyRequest& request, const fs::path& stem) {
     }
     try {
         const meshes::CheckedMesh again = meshes::require_closed_body(meshes::read_mesh(file_, unit_));
-        if (!request.parametric.empty()) say(again.report, request.parametric);
+        if (!request.parametric.empty() && !quiet) say(again.report, request.parametric);
         mesh_ = again.mesh;
     } catch (...) {
-        std::error_code ignored;
-        if (remove_) fs::remove(file_, ignored);
+        remove_traces();
         throw;
     }
 }
 
 BodyOnDisk::~BodyOnDisk() {
+    remove_traces();
+}
+
+void BodyOnDisk::remove_traces() const {
+    if (!remove_) return;
     std::error_code ignored;
-    if (remove_) fs::remove(file_, ignored);
+    fs::remove(file_, ignored);
+    for (const fs::path& folder : made_folders_) fs::remove(folder, ignored);  // succeeds for an empty folder only
 }
 
 }  // namespace pelletlab::apps

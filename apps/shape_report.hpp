@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/clump_template.hpp"
+#include "shapegen/make_clump.hpp"
 
 namespace pelletlab::apps {
 
@@ -16,6 +17,18 @@ std::string name_of(MassSource source);
 
 /// Mass, density and principal inertia, and where they come from.
 void print_mass_of(const ClumpTemplate& clump, const std::string& source);
+
+/// Mass properties of mesh, union and sum of the spheres side by side, and which of them the clump carries.
+void print_masses(const shapegen::MadeClump& made);
+
+/// Roughness, normals, edges, plane contacts, radii.
+void print_surface(const shapegen::MadeClump& made);
+
+/// Time step, contacts and price of the clump in a simulation.
+void print_cost(const shapegen::MadeClump& made);
+
+/// How the fit ended, its symmetry, and where the time went.
+void print_fit(const shapegen::MadeClump& made);
 
 struct QualityRow {
     std::string name;

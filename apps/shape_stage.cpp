@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/shape_report.hpp"
+#include "apps/shape_settings.hpp"
 #include "apps/stage.hpp"
 #include "apps/terminal.hpp"
 #include "core/error.hpp"
@@ -28,12 +29,9 @@ namespace {
 constexpr const char* stage_hash = "stage";
 
 StageKey key_of(const ShapeRequest& request) {
-    const shapegen::ClumpSettings& s = request.settings;
     StageKey key;
     key.verb = "shape";
-    key.settings = describe(request.body) + fmt::format(" method {} volume_matched {} n {} density {:.17g} min_radius {:.17g} mass {} seed {} effort {:.17g}",
-                                                        request.method, request.volume_matched, s.fit.sphere_count, s.density, s.fit.min_radius,
-                                                        static_cast<int>(s.mass_source), s.fit.seed, s.fit.effort);
+    key.settings = describe(request.body) + fmt::format(" method {} volume_matched {} ", request.method, request.volume_matched) + describe(request.settings);
     key.inputs["mesh"] = hash_of(request.body);
     return key;
 }
@@ -77,6 +75,17 @@ void write_picture(const TriangleMesh& body, const shapegen::FitResult& fit, con
     print_written(file, "the body, and the clump coloured by its distance from it");
 }
 
+// What the clump is called and where it comes from.
+void label(ClumpTemplate& clump, const ShapeRequest& request, const BodyOnDisk& body, const StageKey& key) {
+    const fs::path folder = request.output.has_parent_path() ? request.output.parent_path() : fs::path(".");
+    clump.rigid.name = request.body.parametric.empty() ? request.body.mesh_file.stem().string() : stem_of(request.output).filename().string();
+    clump.mesh_file = fs::proximate(fs::absolute(body.file()), fs::absolute(folder)).generic_string();
+    clump.mesh_unit = body.unit();
+    clump.mesh_hash = io::sha256_of_file(body.file());
+    clump.provenance = provenance_of(key, request.settings.fit.seed);
+    clump.provenance.input_hashes[stage_hash] = key.fingerprint();
+}
+
 void check(const ShapeRequest& request) {
     find_method(request.method);
     for (const std::string& id : request.against)
@@ -96,14 +105,27 @@ fs::path stem_of(const fs::path& clump_file) {
 
 shapegen::MadeClump make_by_method(const TriangleMesh& body, const std::string& method, bool volume_matched, const shapegen::ClumpSettings& settings,
                                    const ProgressSink& progress) {
-    if (method == fit_method) return shapegen::make_clump(body, settings, progress);
+    if (method == fit_method) {
+        shapegen::ClumpSettings aimed = settings;
+        aim_symmetry(body, aimed.fit);
+        return shapegen::make_clump(body, aimed, progress);
+    }
     if (progress) progress({"placing spheres by " + find_method(method).name, 0.0, 1.0, "", 0.0, "", ""});
     const auto exact = meshes::exact_signed_distance(body);
-    shapegen::MadeClump made;
-    made.fit.spheres = spheres_of_method(method, body, *exact, settings.fit.sphere_count, settings.fit.seed);
-    if (volume_matched) made.fit.spheres = shapegen::baselines::volume_matched(made.fit.spheres, meshes::mass_properties(body, 1.0).volume);
-    made.clump = shapegen::judged_template(made.fit.spheres, body, *exact, settings.density, settings.mass_source);
-    return made;
+    std::vector<Sphere> spheres = spheres_of_method(method, body, *exact, settings.fit.sphere_count, settings.fit.seed);
+    if (volume_matched) spheres = shapegen::baselines::volume_matched(spheres, meshes::mass_properties(body, 1.0).volume);
+    return shapegen::judged_clump(spheres, body, *exact, settings);
+}
+
+QuietClump ensure_clump(const ShapeRequest& request, const BodyOnDisk& body, const ProgressSink& progress) {
+    check(request);
+    const StageKey key = key_of(request);
+    if (is_up_to_date(request, key, {})) return {io::read_clump(request.output), true};
+    shapegen::MadeClump made = make_by_method(body.mesh(), request.method, request.volume_matched, request.settings, progress);
+    throw_if_interrupted();
+    label(made.clump, request, body, key);
+    io::write_clump(made.clump, request.output);
+    return {made.clump, false};
 }
 
 void run_shape(const ShapeRequest& request) {
@@ -123,15 +145,12 @@ void run_shape(const ShapeRequest& request) {
     progress.finish();
     throw_if_interrupted();
 
-    made.clump.rigid.name = request.body.parametric.empty() ? request.body.mesh_file.stem().string() : stem_of(request.output).filename().string();
-    made.clump.mesh_file = fs::proximate(fs::absolute(body.file()), fs::absolute(folder)).generic_string();
-    made.clump.mesh_unit = body.unit();
-    made.clump.mesh_hash = io::sha256_of_file(body.file());
-    made.clump.provenance = provenance_of(key, request.settings.fit.seed);
-    made.clump.provenance.input_hashes[stage_hash] = key.fingerprint();
-
-    print_mass_of(made.clump, name_of(made.clump.mass_source));
+    label(made.clump, request, body, key);
+    print_masses(made);
     print_quality(request, made, body.mesh());
+    print_surface(made);
+    print_cost(made);
+    if (request.method == fit_method) print_fit(made);
     io::prepare_output_folder(folder);
     if (request.picture) write_picture(body.mesh(), made.fit, picture);
     io::write_clump(made.clump, request.output);

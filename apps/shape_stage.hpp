@@ -28,6 +28,14 @@ struct ShapeRequest {
 /// Reads and checks the mesh, fits, measures, writes the template and its picture, and prints what a person wants to know.
 void run_shape(const ShapeRequest& request);
 
+/// The clump file of the request: the one that is there when nothing has changed, else made and written, silently and without picture. For verbs that make
+/// many; `body` is that of request.body.
+struct QuietClump {
+    ClumpTemplate clump;
+    bool was_there = false;
+};
+QuietClump ensure_clump(const ShapeRequest& request, const BodyOnDisk& body, const ProgressSink& progress);
+
 /// The clump by the method of the request: fitted, or made by another method and judged by the same code. Spheres of `fit` are in the frame of the mesh.
 shapegen::MadeClump make_by_method(const TriangleMesh& body, const std::string& method, bool volume_matched, const shapegen::ClumpSettings& settings,
                                    const ProgressSink& progress);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/body_options.hpp"
 #include "apps/terminal.hpp"
 #include "apps/verbs.hpp"
 #include "io/files.hpp"
@@ -57,9 +58,7 @@ void add_mesh_verb(CLI::App& app) {
     make->add_option("body", options->body, "Name and sizes: cylinder:diameter=3.12mm,height=2.96mm,rim_radius=0.2mm")->required();
     make->add_option("-o,--output", options->output, "STL file to write")->required();
     make->add_option("--unit", options->output_unit, "Unit of its coordinates")->capture_default_str();
-    std::string bodies = "Bodies, with their defaults (and facets=128):\n";
-    for (const meshes::NamedBody& body : meshes::named_bodies()) bodies += fmt::format("  {}\n      {}\n", body.example, body.what);
-    make->footer(bodies);
+    make->footer(list_of_bodies());
     make->callback([options] { make_body(*options); });
 
     CLI::App* assets = mesh->add_subcommand("assets", "Write the reference meshes and their MANIFEST\n  example: pelletlab mesh assets -o meshes/assets");

@@ -52,15 +52,6 @@ MadeClump judged_clump(std::span<const Sphere> spheres_mesh, const TriangleMesh&
     return made;
 }
 
-ClumpTemplate judged_template(std::span<const Sphere> spheres_mesh, const TriangleMesh& body, const meshes::SignedDistance& exact, double density,
-                              MassSource mass_source) {
-    ClumpSettings settings;
-    settings.density = density;
-    settings.mass_source = mass_source;
-    settings.measure_surface = false;
-    return judged_clump(spheres_mesh, body, exact, settings).clump;
-}
-
 MadeClump make_clump(const TriangleMesh& body, const ClumpSettings& settings, const ProgressSink& progress) {
     if (!(settings.density > 0.0)) throw bad_input("the particle density is not positive", "give it like 1800 kg/m^3");
     if (!(settings.voxel_fraction >= 0.0 && settings.voxel_fraction <= 0.25)) {

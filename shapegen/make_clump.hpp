@@ -50,10 +50,6 @@ MadeClump make_clump(const TriangleMesh& body, const ClumpSettings& settings, co
 /// cost and measure_surface count; times and fit statistics stay empty. `exact`: the exact distance of `body`.
 MadeClump judged_clump(std::span<const Sphere> spheres_mesh, const TriangleMesh& body, const meshes::SignedDistance& exact, const ClumpSettings& settings);
 
-/// Any spheres in the mesh frame (of another method, of a file) as a template, judged and weighed as make_clump does. `exact`: the exact distance of `body`.
-ClumpTemplate judged_template(std::span<const Sphere> spheres_mesh, const TriangleMesh& body, const meshes::SignedDistance& exact, double density,
-                              MassSource mass_source);
-
 /// Moves a set of mesh-frame spheres into the body frame of `mass` and wraps them up as a template.
 RigidTemplate rigid_template(std::string name, std::span<const Sphere> spheres_mesh, const MassProperties& mass);
 

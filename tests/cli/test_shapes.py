@@ -145,3 +145,58 @@ class Shapes(PelletlabTest):
             found.append(spheres_of(self.read(name + ".clump.toml")))
         for a, b in zip(*found):
             self.assertLess(max(abs(x - y) for x, y in zip(a, b)), 1e-6)
+
+
+class ShapeSweeps(PelletlabTest):
+    def test_settings_of_the_fit(self):
+        body = ["shape", "--body", "cylinder:facets=24", "--no-picture"]
+        few = self.succeeds(*body, "--until", "rms=0.12mm", "-o", "until.clump.toml")
+        self.assertLess(float(re.search(r'(?m)^both = .*rms = "([\d.e-]+) mm"', self.read("until.clump.toml")).group(1)), 0.12)
+        self.assertIn("fits made", few.out)
+        self.assertRegex(self.succeeds(*body, "-n", "4", "--mode", "inside", "-o", "inside.clump.toml").out, r"fit +\S")
+        self.assertLess(value_of(self.read("inside.clump.toml"), "volume_error"), 0.0)
+        self.assertIn("symmetry", self.succeeds(*body, "-n", "8", "--symmetry", "own", "-o", "own.clump.toml").out)
+        self.fails(USAGE, *body, "-n", "4", "--until", "rms=0.1mm", "-o", "x.clump.toml", says="--until")
+        self.fails(USAGE, *body, "--until", "rsm=0.1mm", "-o", "x.clump.toml", says="rms")
+        self.fails(BAD_INPUT, *body, "--until", "rms=0.1", "-o", "x.clump.toml", says="unit")
+        self.fails(BAD_INPUT, *body, "--until", "inertia=-1%", "-o", "x.clump.toml", says="positive")
+        self.fails(USAGE, *body, "--mode", "best", "-o", "x.clump.toml", says="mode")
+        self.fails(USAGE, *body, "--symmetry", "some", "-o", "x.clump.toml", says="own")
+        self.fails(USAGE, *body, "--method", "favier", "--mode", "flat", "-o", "x.clump.toml", says="--mode")
+
+    def test_pareto_goes_on_where_it_was(self):
+        sweep = ["shape", "pareto", "--body", "cylinder:facets=24", "--counts", "4,8", "--modes", "mean", "--methods", "shape1,favier", "-o", "p"]
+        self.succeeds(*sweep)
+        rows = self.read("p", "pareto.csv").splitlines()
+        self.assertEqual(len(rows), 1 + 2 + 2 + 4)  # head; fits; Shape 1 as drawn and matched; Favier at two numbers, as made and matched
+        self.assertTrue(os.path.getsize(self.path("p", "pareto.png")) > 1000)
+        self.assertTrue(any(row.split(",")[-2] == "1" for row in rows[1:]), "nothing on the front")
+        os.remove(self.path("p", "clumps", "fit-mean-8.clump.toml"))
+        self.assertIn("7 of 8 clumps were there already", self.succeeds(*sweep).out)
+        self.assertEqual(self.read("p", "pareto.csv").splitlines(), rows)
+        self.fails(USAGE, *sweep[:-2], "-o", "q", "--modes", "best", says="mode")
+        self.fails(USAGE, "shape", "pareto", says="required")
+
+    def test_family_of_worn_and_varied_pellets(self):
+        self.succeeds("shape", "family", "--body", "cylinder:facets=24", "--rim-radius", "0mm,0.4mm", "--ovality", "5%", "--size-spread", "3%", "-n", "4", "-o", "f")
+        rows = [row.split(",") for row in self.read("f", "family.csv").splitlines()]
+        members = {row[0]: row for row in rows[1:]}
+        self.assertEqual(sorted(members), ["oval-0.05", "rim-0.4mm", "rim-0mm", "size-large", "size-middle", "size-small"])
+        volume = {name: float(row[5]) for name, row in members.items()}
+        self.assertAlmostEqual(volume["oval-0.05"] / volume["rim-0mm"], 1.0, delta=1e-6)  # the same cross-section
+        self.assertLess(volume["rim-0.4mm"], 0.99 * volume["rim-0mm"])
+        self.assertAlmostEqual(volume["size-large"] / volume["size-middle"], (1 + 0.03 * 3**0.5) ** 3, delta=1e-5)
+        self.assertAlmostEqual(sum(float(members[name][3]) for name in members if name.startswith("size")), 1.0, delta=1e-5)
+        self.assertTrue(all(os.path.exists(self.path("f", name + end)) for name in members for end in (".clump.toml", ".stl")))
+        self.fails(USAGE, "shape", "family", "--body", "cylinder", "-o", "g", says="varies")
+        self.fails(USAGE, "shape", "family", "--body", "ring", "--rim-radius", "0.1mm", "-o", "g", says="cylinder")
+
+    def test_compare_tells_and_draws(self):
+        self.succeeds("shape", "--body", "cylinder:facets=24", "-n", "4", "--no-picture", "-o", "a.clump.toml")
+        self.succeeds("shape", "--body", "cylinder:facets=24", "--method", "shape1", "--no-picture", "-o", "b.clump.toml")
+        told = self.succeeds("shape", "compare", "a.clump.toml", "b.clump.toml")
+        for text in ("sum of the spheres", "<- the clump's", "DEM cost", "a.compare.png", "b.compare.png"):
+            self.assertIn(text, told.out)
+        self.assertTrue(os.path.getsize(self.path("a.compare.png")) > 10000)
+        os.remove(self.path("a.stl"))
+        self.fails(BAD_INPUT, "shape", "compare", "a.clump.toml", "--no-picture", says="a.stl")

@@ -4,7 +4,7 @@ import re
 
 from harness import BAD_INPUT, USAGE, PelletlabTest
 
-VERBS = [["shape"], ["shape", "export"], ["shape", "import"],
+VERBS = [["shape"], ["shape", "export"], ["shape", "import"], ["shape", "compare"], ["shape", "pareto"], ["shape", "family"],
          ["fill"], ["drum"], ["demo"],
          ["observe"], ["observe", "tube"], ["observe", "pile"], ["observe", "drum"],
          ["mesh"], ["mesh", "check"], ["mesh", "make"], ["mesh", "assets"],
