@@ -1,6 +1,6 @@
 // Any bytes as a mesh file: the first byte chooses the kind (STL, OBJ, PLY), the rest is the file. The reader throws an Error(bad_input) with a problem, or
-// gives finite triangles with indices in range; the check never fails on them; a body it accepts has finite mass properties, and repair gives a closed body or
-// an Error.
+// gives finite triangles with indices in range; the check never fails on them; what require_closed_body accepts is closed and has finite mass properties.
+// PELLETLAB_FUZZ_READER_ALONE: without the check, many times faster.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -52,6 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
     for (const Vec3& vertex : mesh.vertices) require(vertex.allFinite());
     for (const Triangle& face : mesh.faces)
         for (const std::uint32_t corner : face) require(corner < mesh.vertices.size());
+#ifndef PELLETLAB_FUZZ_READER_ALONE
     const meshes::MeshReport report = meshes::check(mesh);
     require(report.faces == mesh.faces.size());
     try {
@@ -62,5 +63,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
     } catch (const Error& error) {
         require(error.kind() == ErrorKind::bad_input && !error.problem().empty());
     }
+#endif
     return 0;
 }
