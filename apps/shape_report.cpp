@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "apps/terminal.hpp"
-#include "shapegen/sum_properties.hpp"
 
 namespace pelletlab::apps {
 
@@ -41,8 +40,6 @@ void print_mass_of(const ClumpTemplate& clump, const std::string& source) {
 }
 
 void print_masses(const shapegen::MadeClump& made) {
-    const double density = made.mesh_mass.density;
-    const MassProperties sum = shapegen::sum_mass_properties(made.fit.spheres, density);
     const MassSource source = made.clump.mass_source;
     std::vector<std::vector<std::string>> rows{{"mass properties", "volume mm³", "mass mg", "density kg/m³", "principal inertia mg mm², ascending", ""}};
     const auto add = [&rows](const std::string& name, const MassProperties& m, bool exported) {
@@ -54,7 +51,7 @@ void print_masses(const shapegen::MadeClump& made) {
     add("mesh", made.mesh_mass, source == MassSource::target_mesh);
     add("union of the spheres", made.union_mass, source == MassSource::union_of_spheres);
     if (source == MassSource::density_matched_union) add("union, density matched", made.clump.rigid.mass_properties, true);
-    add("sum of the spheres", sum, false);
+    add("sum of the spheres", made.clump.masses.sum, false);
     print_table(rows);
 }
 

@@ -19,7 +19,6 @@
 #include "meshes/read_mesh.hpp"
 #include "shapegen/formats/formats.hpp"
 #include "shapegen/make_clump.hpp"
-#include "shapegen/quality.hpp"
 #include "shapegen/union_properties.hpp"
 
 namespace pelletlab::apps {
@@ -52,8 +51,11 @@ const formats::Format& format_of(const ImportOptions& options) {
 
 FitQuality unknown_quality() {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    const DistanceFigures none{nan, nan, nan, nan};
-    return {nan, Vec3::Constant(nan), nan, nan, none, none, none, nan};
+    FitQuality quality;
+    quality.volume_error = quality.centre_offset = quality.symmetric_difference = quality.missing = quality.outside = quality.distance_error_bound = nan;
+    quality.inertia_error = Vec3::Constant(nan);
+    quality.target_to_union = quality.union_to_target = quality.both = {nan, nan, nan, nan};
+    return quality;
 }
 
 /// The mass properties of the import: the file's own, or those of the union or the mesh at the density given.
@@ -103,7 +105,11 @@ void run_import(const ImportOptions& options) {
     clump.quality = unknown_quality();
     const fs::path output = options.output, folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
     if (body) {
-        clump.quality = shapegen::measure_quality(imported.spheres, *body, *meshes::exact_signed_distance(*body));
+        shapegen::ClumpSettings settings;
+        settings.density = clump.rigid.mass_properties.density;
+        const shapegen::MadeClump judged = shapegen::judged_clump(imported.spheres, *body, *meshes::exact_signed_distance(*body), settings);
+        clump.quality = judged.clump.quality;
+        clump.masses = judged.clump.masses;
         clump.mesh_file = fs::proximate(fs::absolute(options.mesh), fs::absolute(folder)).generic_string();
         clump.mesh_unit = options.mesh_unit;
         clump.mesh_hash = io::sha256_of_file(options.mesh);

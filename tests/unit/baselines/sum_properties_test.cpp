@@ -1,4 +1,4 @@
-#include "shapegen/sum_properties.hpp"
+#include "shapegen/union_properties.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 
 #include "core/error.hpp"
 #include "shapegen/hand_made.hpp"
-#include "shapegen/union_properties.hpp"
 
 namespace pelletlab::shapegen {
 namespace {
