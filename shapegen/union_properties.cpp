@@ -3,6 +3,7 @@
 #include "shapegen/union_properties.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -59,6 +60,7 @@ void principal_axes(const Mat3& inertia, Quat& axes, Vec3& moments) {
 
 MassProperties union_mass_properties(std::span<const Sphere> spheres, double density) {
     if (spheres.empty()) throw bad_input("a union of no spheres has no mass", "give at least one sphere");
+    if (!(density > 0.0) || !std::isfinite(density)) throw bad_input("the density must be positive", "give it in kg/m^3");
     const Vec3 origin = middle_of(spheres);
     const detail::UnionMoments moments = detail::union_moments(spheres, detail::union_boundary(spheres), origin);
     if (!(moments.volume > 0.0)) throw numerical_failure("the union of spheres has no volume", "check the radii");
@@ -75,6 +77,7 @@ MassProperties union_mass_properties(std::span<const Sphere> spheres, double den
 
 MassProperties sum_mass_properties(std::span<const Sphere> spheres, double density) {
     if (spheres.empty()) throw bad_input("a sum of no spheres has no mass", "give at least one sphere");
+    if (!(density > 0.0) || !std::isfinite(density)) throw bad_input("the density must be positive", "give it in kg/m^3");
     const Vec3 origin = middle_of(spheres);
     MassProperties mass;
     Vec3 first = Vec3::Zero();

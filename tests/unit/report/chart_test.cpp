@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -49,24 +50,32 @@ TEST(Chart, DrawsEverySeriesInItsColourTwiceWithTheKey) {
     EXPECT_EQ(pixels_of(picture_of_chart(chart, settings), {30, 30, 200}), 0u);
 }
 
+/// Mean place of the pixels of a colour.
+std::pair<double, double> middle_of(const Image& image, const Srgb& colour) {
+    double x_sum = 0.0, y_sum = 0.0, count = 0.0;
+    for (std::size_t y = 0; y < image.height; ++y)
+        for (std::size_t x = 0; x < image.width; ++x) {
+            const std::uint8_t* p = &image.rgb[3 * (y * image.width + x)];
+            if (p[0] == colour[0] && p[1] == colour[1] && p[2] == colour[2]) x_sum += static_cast<double>(x), y_sum += static_cast<double>(y), ++count;
+        }
+    return {x_sum / count, y_sum / count};
+}
+
 TEST(Chart, HigherErrorIsHigherUpAndMoreCostFartherRight) {
     PictureSettings settings;
     settings.width = 800;
     Chart chart = small_chart();
+    chart.series[1].points = {{0.5, 0.05}, {2.0, 0.02}};  // keeps the axes as they are
+    chart.series[1].labels = {};
     chart.series[0].line = false;
-    chart.series[0].name = "a";
-    const Image image = picture_of_chart(chart, settings);
-    std::size_t top_left = image.width, bottom_right = 0, first_row = image.height, last_row = 0;
-    const std::size_t plot_end = image.width * 3 / 4;  // the key lies beyond
-    for (std::size_t y = 0; y < image.height; ++y)
-        for (std::size_t x = 0; x < plot_end; ++x) {
-            const std::uint8_t* p = &image.rgb[3 * (y * image.width + x)];
-            if (p[0] != 200 || p[1] != 30 || p[2] != 30) continue;
-            if (y < first_row) first_row = y, top_left = x;
-            if (y >= last_row) last_row = y, bottom_right = x;
-        }
-    EXPECT_LT(first_row + 100, last_row);
-    EXPECT_LT(top_left + 100, bottom_right);
+    const Srgb red{200, 30, 30};
+    chart.series[0].points = {{0.6, 0.045}};
+    const auto dear = middle_of(picture_of_chart(chart, settings), red);
+    chart.series[0].points = {{1.8, 0.022}};
+    const auto cheap = middle_of(picture_of_chart(chart, settings), red);
+    // The disc in the key stays where it is and is half of the red, so the middle moves half as far as the point.
+    EXPECT_GT(cheap.first - dear.first, 100.0);
+    EXPECT_GT(cheap.second - dear.second, 50.0);
 }
 
 TEST(Chart, WhatCannotBeDrawnIsAnError) {

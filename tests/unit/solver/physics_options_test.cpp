@@ -35,7 +35,7 @@ TEST(PhysicsOptions, OutOfRangeOrExcludingEachOtherAreRefused) {
 
 TEST(PhysicsOptions, WallsThatWouldJumpAreRefused) {
     refuse("jumps", [](auto& d) { d.walls[0].motion.velocity = {0, 0, 100.0}; });
-    refuse("jumps", [](auto& d) { d.walls[0].motion.oscillation = {0, 0, 1.0}, d.walls[0].motion.frequency = 10.0; });
+    refuse("jumps", [](auto& d) { d.walls[0].motion.oscillation = {0, 0, 1.0}, d.walls[0].motion.frequency = 20.0; });
     refuse("begin at time 0", [](auto& d) { d.walls[0].motion.table = {{0.0, {0, 0, 0.1}, 0.0}, {1.0, {0, 0, 0.2}, 0.0}}; });
     refuse("not later", [](auto& d) { d.walls[0].motion.table = {{0.0, Vec3::Zero(), 0.0}, {0.0, {0, 0, 0.2}, 0.0}}; });
 }
