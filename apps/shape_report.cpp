@@ -48,8 +48,8 @@ void print_masses(const shapegen::MadeClump& made) {
         rows.push_back({name, fmt::format("{:.4f}", 1e9 * m.volume), fmt::format("{:.4f}", 1e6 * m.mass), fmt::format("{:.5g}", m.density),
                         fmt::format("{:.4f} {:.4f} {:.4f}", i.x(), i.y(), i.z()), exported ? "<- the clump's" : ""});
     };
-    add("mesh", made.mesh_mass, source == MassSource::target_mesh);
-    add("union of the spheres", made.union_mass, source == MassSource::union_of_spheres);
+    add("mesh", made.clump.masses.mesh, source == MassSource::target_mesh);
+    add("union of the spheres", made.clump.masses.of_union, source == MassSource::union_of_spheres);
     if (source == MassSource::density_matched_union) add("union, density matched", made.clump.rigid.mass_properties, true);
     add("sum of the spheres", made.clump.masses.sum, false);
     print_table(rows);

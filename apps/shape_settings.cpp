@@ -31,7 +31,8 @@ const std::vector<Criterion>& criteria_table() {
     return table;
 }
 
-/// «1%» or «0.01»
+}  // namespace
+
 double share_of(std::string text, const std::string& what) {
     const bool percent = !text.empty() && text.back() == '%';
     if (percent) text.pop_back();
@@ -46,8 +47,6 @@ double share_of(std::string text, const std::string& what) {
     if (used == 0 || used != text.size() || !std::isfinite(value)) throw bad_input("'" + text.substr(0, 40) + "' is no share for " + what, "write 1% or 0.01");
     return percent ? 0.01 * value : value;
 }
-
-}  // namespace
 
 const std::map<std::string, shapegen::FitMode>& fit_modes() {
     static const std::map<std::string, shapegen::FitMode> modes{{"mean", shapegen::FitMode::mean},

@@ -13,6 +13,9 @@ namespace pelletlab::apps {
 const std::map<std::string, shapegen::FitMode>& fit_modes();
 std::string name_of(shapegen::FitMode mode);
 
+/// «1%» or «0.01»; `what` is named in the Error(bad_input) for anything else.
+double share_of(std::string text, const std::string& what);
+
 /// «rms=0.02mm», «inertia=1%», … into the criteria. Error(usage) for an unknown name, Error(bad_input) for a value that means nothing.
 void add_criterion(const std::string& text, shapegen::StopCriteria& criteria);
 

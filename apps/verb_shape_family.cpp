@@ -42,16 +42,15 @@ struct Member {
 };
 
 double share(const std::string& text, const std::string& option) {
-    shapegen::StopCriteria reader;  // the same reading of «3%» and «0.03»
-    add_criterion("difference=" + text, reader);
-    if (reader.symmetric_difference >= 0.5) throw bad_input(option + " of " + text + " is out of reach", "give less than 50%");
-    return reader.symmetric_difference;
+    const double value = share_of(text, option);
+    if (!(value >= 0.0 && value < 0.5)) throw bad_input(option + " of " + text + " is out of reach", "give less than 50%");
+    return value;
 }
 
 void add_spread(std::vector<Member>& members, const FamilyOptions& options, const std::string& kind, const std::string& text, bool along_z_only) {
     if (text.empty()) return;
     const double sigma = share(text, "--" + kind + "-spread"), step = std::sqrt(3.0) * sigma;
-    if (step >= 0.9) throw bad_input("a spread of " + text + " makes pellets of no size", "give less than 50%");
+    if (sigma == 0.0) throw bad_input("a spread of " + text + " makes the same pellet three times", "give for instance 3%, or leave --" + kind + "-spread out");
     for (const auto& [name, factor, weight] : {std::tuple{"small", 1.0 - step, 1.0 / 6.0}, {"middle", 1.0, 2.0 / 3.0}, {"large", 1.0 + step, 1.0 / 6.0}}) {
         Member member{kind + "-" + name, kind + " factor", fmt::format("{:.6g}", factor), weight, body_request(options.body)};
         member.body.stretch = along_z_only ? Vec3(1.0, 1.0, factor) : Vec3::Constant(factor);
@@ -72,7 +71,7 @@ std::vector<Member> members_of(const FamilyOptions& options) {
         members.push_back(member);
     }
     for (const std::string& text : options.ovalities) {
-        const double oval = text == "0" || text == "0%" ? 0.0 : share(text, "--ovality");
+        const double oval = share(text, "--ovality");
         Member member{fmt::format("oval-{:.3g}", oval), "ovality", fmt::format("{:.6g}", oval), 1.0, body_request(options.body)};
         member.body.stretch = Vec3(std::sqrt(1.0 + oval), 1.0 / std::sqrt(1.0 + oval), 1.0);  // widest / narrowest = 1 + ovality, the same cross-section
         members.push_back(member);

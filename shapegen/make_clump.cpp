@@ -43,8 +43,6 @@ MadeClump judged_clump(std::span<const Sphere> spheres_mesh, const TriangleMesh&
     MassComparison& masses = made.clump.masses;
     masses = {meshes::mass_properties(body, settings.density), union_mass_properties(spheres_mesh, settings.density),
               sum_mass_properties(spheres_mesh, settings.density)};
-    made.mesh_mass = masses.mesh;
-    made.union_mass = masses.of_union;
     made.clump.mass_source = settings.mass_source;
     made.clump.rigid = rigid_template("clump", spheres_mesh, chosen_mass(settings.mass_source, masses.mesh, masses.of_union));
     made.cost = dem_cost(rigid_template("", spheres_mesh, masses.mesh).spheres, masses.mesh, settings.cost);

@@ -38,7 +38,6 @@ struct MadeClump {
     DemCost cost;
     double relative_cost = 0.0;  ///< / that of the study's Shape 2 at the same density
     double search_error = 0.0;   ///< [m], bound of the error of the distance that the search used
-    MassProperties mesh_mass, union_mass;  ///< = clump.masses.mesh and of_union
     std::uint32_t attempts = 1;  ///< fits made to meet a criterion
     ClumpTimes times;
 };

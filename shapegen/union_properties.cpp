@@ -56,14 +56,12 @@ void principal_axes(const Mat3& inertia, Quat& axes, Vec3& moments) {
     axes = Quat(frame).normalized();
 }
 
-}  // namespace
-
-MassProperties union_mass_properties(std::span<const Sphere> spheres, double density) {
-    if (spheres.empty()) throw bad_input("a union of no spheres has no mass", "give at least one sphere");
+void check_density(double density) {
     if (!(density > 0.0) || !std::isfinite(density)) throw bad_input("the density must be positive", "give it in kg/m^3");
-    const Vec3 origin = middle_of(spheres);
-    const detail::UnionMoments moments = detail::union_moments(spheres, detail::union_boundary(spheres), origin);
-    if (!(moments.volume > 0.0)) throw numerical_failure("the union of spheres has no volume", "check the radii");
+}
+
+// Mass properties from the integrals of 1, x and x xᵀ about the origin.
+MassProperties weighed(const detail::UnionMoments& moments, const Vec3& origin, double density) {
     MassProperties mass;
     mass.volume = moments.volume;
     mass.density = density;
@@ -75,27 +73,30 @@ MassProperties union_mass_properties(std::span<const Sphere> spheres, double den
     return mass;
 }
 
+}  // namespace
+
+MassProperties union_mass_properties(std::span<const Sphere> spheres, double density) {
+    if (spheres.empty()) throw bad_input("a union of no spheres has no mass", "give at least one sphere");
+    check_density(density);
+    const Vec3 origin = middle_of(spheres);
+    const detail::UnionMoments moments = detail::union_moments(spheres, detail::union_boundary(spheres), origin);
+    if (!(moments.volume > 0.0)) throw numerical_failure("the union of spheres has no volume", "check the radii");
+    return weighed(moments, origin, density);
+}
+
 MassProperties sum_mass_properties(std::span<const Sphere> spheres, double density) {
     if (spheres.empty()) throw bad_input("a sum of no spheres has no mass", "give at least one sphere");
-    if (!(density > 0.0) || !std::isfinite(density)) throw bad_input("the density must be positive", "give it in kg/m^3");
+    check_density(density);
     const Vec3 origin = middle_of(spheres);
-    MassProperties mass;
-    Vec3 first = Vec3::Zero();
-    Mat3 second = Mat3::Zero();  // ∫ x xᵀ dV; of a ball about its centre V r²/5
+    detail::UnionMoments moments;
     for (const Sphere& sphere : spheres) {
         const double volume = 4.0 / 3.0 * std::numbers::pi * sphere.radius * sphere.radius * sphere.radius;
         const Vec3 c = sphere.centre - origin;
-        mass.volume += volume;
-        first += volume * c;
-        second += volume * (c * c.transpose() + 0.2 * sphere.radius * sphere.radius * Mat3::Identity());
+        moments.volume += volume;
+        moments.first += volume * c;
+        moments.second += volume * (c * c.transpose() + 0.2 * sphere.radius * sphere.radius * Mat3::Identity());  // of a ball about its centre V r²/5
     }
-    mass.density = density;
-    mass.mass = density * mass.volume;
-    const Vec3 centre = first / mass.volume;
-    mass.centre_of_mass_mesh = origin + centre;
-    const Mat3 spread = second - mass.volume * centre * centre.transpose();
-    principal_axes(density * (spread.trace() * Mat3::Identity() - spread), mass.principal_axes, mass.principal_inertia);
-    return mass;
+    return weighed(moments, origin, density);
 }
 
 double union_volume(std::span<const Sphere> spheres) {
