@@ -33,28 +33,40 @@ std::vector<int> others(Eigen::Index n, const std::vector<int>& points) {
     return rows;
 }
 
+/// The baseline near a fit: its mean, the covariance of the fitted data, and ∂mean/∂ψ by differences that stay inside the unit cube.
+struct Linearised {
+    Eigen::VectorXd mean;
+    Eigen::MatrixXd sigma, jacobian;
+};
+
+Linearised linearised_baseline(const Attributor& attributor, const Eigen::VectorXd& psi) {
+    const Hypothesis& none = attributor.hypotheses()[0];
+    Linearised at;
+    at.mean = attributor.mean(none, psi);
+    Eigen::VectorXd phi, theta;
+    attributor.split(none, psi, phi, theta);
+    at.sigma = covariance(attributor.problem(), attributor.problem().fitted, phi, theta);
+    at.jacobian.resize(at.mean.size(), psi.size());
+    for (Eigen::Index i = 0; i < psi.size(); ++i) {
+        Eigen::VectorXd moved = psi;
+        const double step = moved[i] > 0.5 ? -1e-3 : 1e-3;
+        moved[i] += step;
+        at.jacobian.col(i) = (attributor.mean(none, moved) - at.mean) / step;
+    }
+    return at;
+}
+
 /// Standardised mean miss of the points when the baseline is fitted to the other rows.
 double left_out_z(const Attributor& attributor, const Eigen::VectorXd& y, const std::vector<int>& points) {
     const auto rows = others(y.size(), points);
     if (rows.size() < static_cast<std::size_t>(attributor.problem().phi_lower.size()) + 1) return not_known;
     const Fit fit = attributor.fit_rows(0, y, rows);
-    const Hypothesis& none = attributor.hypotheses()[0];
-    const Eigen::VectorXd miss = y - attributor.mean(none, fit.mode.psi);
-    Eigen::VectorXd phi, theta;
-    attributor.split(none, fit.mode.psi, phi, theta);
-    const Eigen::MatrixXd sigma = covariance(attributor.problem(), attributor.problem().fitted, phi, theta);
-    const Eigen::Index p = fit.mode.psi.size();
-    Eigen::MatrixXd jacobian(y.size(), p);
-    for (Eigen::Index i = 0; i < p; ++i) {
-        Eigen::VectorXd moved = fit.mode.psi;
-        const double step = moved[i] > 0.5 ? -1e-3 : 1e-3;
-        moved[i] += step;
-        jacobian.col(i) = (attributor.mean(none, moved) - attributor.mean(none, fit.mode.psi)) / step;
-    }
+    const Linearised at = linearised_baseline(attributor, fit.mode.psi);
+    const Eigen::VectorXd miss = y - at.mean;
     Eigen::VectorXd w = Eigen::VectorXd::Zero(y.size());
     for (const int i : points) w[i] = 1.0 / static_cast<double>(points.size());
-    const Eigen::VectorXd jw = jacobian.transpose() * w;
-    const double variance = w.dot(sigma * w) + jw.dot(fit.mode.precision.ldlt().solve(jw));
+    const Eigen::VectorXd jw = at.jacobian.transpose() * w;
+    const double variance = w.dot(at.sigma * w) + jw.dot(fit.mode.precision.ldlt().solve(jw));
     return w.dot(miss) / std::sqrt(variance);
 }
 
@@ -117,20 +129,8 @@ double transfer_p_value(const Attributor& attributor, const Eigen::VectorXd& y, 
     std::vector<int> calibrated, rest;
     for (std::size_t i = 0; i < problem.is_calibration.size(); ++i) (problem.is_calibration[i] ? calibrated : rest).push_back(static_cast<int>(i));
     if (calibrated.empty() || rest.empty()) return not_known;
-    const Hypothesis& none = attributor.hypotheses()[0];
     const Fit fit = attributor.fit_rows(0, y, calibrated);
-    const Eigen::VectorXd f = attributor.mean(none, fit.mode.psi);
-    Eigen::VectorXd phi, theta;
-    attributor.split(none, fit.mode.psi, phi, theta);
-    const Eigen::MatrixXd sigma = covariance(problem, problem.fitted, phi, theta);
-    const Eigen::Index p = fit.mode.psi.size();
-    Eigen::MatrixXd jacobian(y.size(), p);
-    for (Eigen::Index i = 0; i < p; ++i) {
-        Eigen::VectorXd moved = fit.mode.psi;
-        const double step = moved[i] > 0.5 ? -1e-3 : 1e-3;
-        moved[i] += step;
-        jacobian.col(i) = (attributor.mean(none, moved) - f) / step;
-    }
+    const auto [f, sigma, jacobian] = linearised_baseline(attributor, fit.mode.psi);
     // Miss of the rest: its own noise, minus what the calibrated data's noise drags along through the fit.
     const inference::Whitener calibrated_whitener(Eigen::MatrixXd(sigma(calibrated, calibrated)));
     const Eigen::MatrixXd jc = calibrated_whitener.whiten_columns(jacobian(calibrated, Eigen::all));
