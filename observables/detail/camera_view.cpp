@@ -137,20 +137,8 @@ CameraSums look(const FrameSource& trajectory, const std::vector<std::size_t>& f
 
 std::vector<FieldMap> camera_maps(const CameraSums& sums, const TimeWindow& window) {
     const auto map = [&](const char* name) {
-        FieldMap m;
-        m.name = name;
-        m.unit = "m/s";
-        m.horizontal_axis = "x";
-        m.vertical_axis = "z";
-        m.origin_horizontal = sums.grid.first_a;
-        m.origin_vertical = sums.grid.first_b;
-        m.spacing = sums.grid.step_a;
-        m.columns = sums.grid.columns;
-        m.rows = sums.grid.rows;
-        m.value.assign(sums.grid.cells(), not_known);
+        FieldMap m = empty_map(name, "m/s", "drum.camera_map", sums.grid, window);
         m.sample_count = sums.seen;
-        m.window = window;
-        m.method = "drum.camera_map";
         return m;
     };
     FieldMap speed = map("camera_speed"), vx = map("camera_vx"), vz = map("camera_vz"), tremble = map("camera_velocity_fluctuation");

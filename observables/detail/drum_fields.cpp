@@ -30,24 +30,6 @@ double ratio(double momentum, double volume) {
     return volume > 0.0 ? momentum / volume : not_known;
 }
 
-FieldMap empty_map(const char* name, const char* unit, const char* method, const ViewGrid& grid, const MapSettings& settings) {
-    FieldMap map;
-    map.name = name;
-    map.unit = unit;
-    map.horizontal_axis = "x";
-    map.vertical_axis = "z";
-    map.origin_horizontal = grid.first_a;
-    map.origin_vertical = grid.first_b;
-    map.spacing = grid.step_a;
-    map.columns = grid.columns;
-    map.rows = grid.rows;
-    map.value.assign(grid.cells(), not_known);
-    map.sample_count.assign(grid.cells(), 0.0);
-    map.window = settings.window;
-    map.method = method;
-    return map;
-}
-
 }  // namespace
 
 double area_below(const FreeSurface& surface, const ViewGrid& grid, const SurfaceSettings& settings) {
@@ -106,10 +88,10 @@ double rigid_layer_rotation(const CellSums& sums, const FreeSurface& surface, co
 }
 
 std::vector<FieldMap> end_view_maps(const CellSums& sums, const ViewGrid& grid, const MapSettings& settings) {
-    FieldMap vx = empty_map("vx", "m/s", "drum.velocity_map", grid, settings), vz = empty_map("vz", "m/s", "drum.velocity_map", grid, settings);
-    FieldMap speed = empty_map("speed", "m/s", "drum.velocity_map", grid, settings);
-    FieldMap fluctuation = empty_map("velocity_fluctuation", "m/s", "drum.velocity_fluctuation", grid, settings);
-    FieldMap packing = empty_map("packing_fraction", "1", "drum.packing_map", grid, settings);
+    FieldMap vx = empty_map("vx", "m/s", "drum.velocity_map", grid, settings.window), vz = empty_map("vz", "m/s", "drum.velocity_map", grid, settings.window);
+    FieldMap speed = empty_map("speed", "m/s", "drum.velocity_map", grid, settings.window);
+    FieldMap fluctuation = empty_map("velocity_fluctuation", "m/s", "drum.velocity_fluctuation", grid, settings.window);
+    FieldMap packing = empty_map("packing_fraction", "1", "drum.packing_map", grid, settings.window);
     const std::vector<double> area = grid.area_inside(settings.drum_radius);
     const double full_cell = grid.step_a * grid.step_b;
     for (std::size_t cell = 0; cell < grid.cells(); ++cell) {

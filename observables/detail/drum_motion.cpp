@@ -118,20 +118,9 @@ void add_speeds(Observables& result, const DrumWindow& window) {
     }
     result.profiles.push_back(std::move(profile));
 
-    FieldMap map;
-    map.name = "granular_temperature";
-    map.unit = "m^2/s^2";
-    map.horizontal_axis = "x";
-    map.vertical_axis = "z";
-    map.origin_horizontal = motion.grid.first_a;
-    map.origin_vertical = motion.grid.first_b;
-    map.spacing = motion.grid.step_a;
-    map.columns = motion.grid.columns;
-    map.rows = motion.grid.rows;
+    FieldMap map = empty_map("granular_temperature", "m^2/s^2", "drum.granular_temperature", motion.grid, analysis.window);
     map.value = temperature_of_cells(whole);
     map.sample_count = whole.count;
-    map.window = analysis.window;
-    map.method = "drum.granular_temperature";
     result.maps.push_back(std::move(map));
 }
 

@@ -59,6 +59,24 @@ void CellSums::add(const CellSums& other) {
     }
 }
 
+FieldMap empty_map(const char* name, const char* unit, const char* method, const ViewGrid& grid, const TimeWindow& window) {
+    FieldMap map;
+    map.name = name;
+    map.unit = unit;
+    map.horizontal_axis = "x";
+    map.vertical_axis = "z";
+    map.origin_horizontal = grid.first_a;
+    map.origin_vertical = grid.first_b;
+    map.spacing = grid.step_a;
+    map.columns = grid.columns;
+    map.rows = grid.rows;
+    map.value.assign(grid.cells(), not_known);
+    map.sample_count.assign(grid.cells(), 0.0);
+    map.window = window;
+    map.method = method;
+    return map;
+}
+
 ViewGrid ViewGrid::over(double radius, std::size_t columns, std::size_t rows) {
     ViewGrid grid;
     grid.columns = columns;

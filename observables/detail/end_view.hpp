@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/observables.hpp"
 #include "observables/detail/pellet_points.hpp"
 
 namespace pelletlab::observables::detail {
@@ -49,6 +50,9 @@ struct ViewGrid {
     /// (cells) share of each cell's area inside the circle of that radius about the origin [m²].
     std::vector<double> area_inside(double radius) const;
 };
+
+/// A map over the (x, z) grid in which nothing has been seen yet: values not known, sample counts 0.
+FieldMap empty_map(const char* name, const char* unit, const char* method, const ViewGrid& grid, const TimeWindow& window);
 
 /// Which part of the pellets counts, and how much.
 struct ViewFilter {

@@ -13,22 +13,13 @@
 #include "meshes/makers.hpp"
 #include "meshes/read_mesh.hpp"
 #include "tests/unit/observables/documented.hpp"
+#include "tests/unit/observables/find.hpp"
 #include "tests/unit/packing/small_case.hpp"
 
 using namespace pelletlab;
 using namespace pelletlab::experiments;
 using pelletlab::small_case::drum_case;
 using pelletlab::small_case::dumbbell_inputs;
-
-namespace {
-
-const Observable& find(const Observables& observables, const std::string& name) {
-    for (const Observable& o : observables.values)
-        if (o.name == name) return o;
-    throw std::runtime_error("no observable " + name);
-}
-
-}  // namespace
 
 TEST(PelletCount, FollowsFromTheFillFraction) {
     DrumRig drum;

@@ -9,6 +9,7 @@
 #include "observables/drum.hpp"
 #include "observables/mixing.hpp"
 #include "tests/unit/observables/documented.hpp"
+#include "tests/unit/observables/find.hpp"
 #include "tests/unit/observables/synthetic.hpp"
 
 using namespace pelletlab;
@@ -16,24 +17,6 @@ using namespace pelletlab::observables;
 using namespace pelletlab::synthetic;
 
 namespace {
-
-const Observable& find(const Observables& observables, const std::string& name) {
-    for (const Observable& o : observables.values)
-        if (o.name == name) return o;
-    throw std::runtime_error("no observable " + name);
-}
-
-const Profile& profile_of(const Observables& observables, const std::string& name) {
-    for (const Profile& profile : observables.profiles)
-        if (profile.name == name) return profile;
-    throw std::runtime_error("no profile " + name);
-}
-
-const FieldMap& map_of(const Observables& observables, const std::string& name) {
-    for (const FieldMap& map : observables.maps)
-        if (map.name == name) return map;
-    throw std::runtime_error("no map " + name);
-}
 
 /// A level bed up to z = −level in a drum that turns about +y: a layer of that depth flows to the right with the speed of the surface at its top
 /// and zero at its bottom; below it, everything goes to the left with the same gradient.

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "tests/unit/observables/documented.hpp"
+#include "tests/unit/observables/find.hpp"
 #include "tests/unit/observables/synthetic.hpp"
 
 using namespace pelletlab;
@@ -16,18 +17,6 @@ using namespace pelletlab::synthetic;
 namespace {
 
 constexpr double degree = pi / 180.0;
-
-const Observable& find(const Observables& observables, const std::string& name) {
-    for (const Observable& o : observables.values)
-        if (o.name == name) return o;
-    throw std::runtime_error("no observable " + name);
-}
-
-const FieldMap& map_of(const Observables& observables, const std::string& name) {
-    for (const FieldMap& map : observables.maps)
-        if (map.name == name) return map;
-    throw std::runtime_error("no map " + name);
-}
 
 /// Bed under the straight surface z = level − x tan(angle): high on the left, as in a drum that turns about +y.
 std::function<bool(double, double)> under_straight_surface(double level, double angle) {

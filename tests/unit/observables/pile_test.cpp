@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "observables/detail/pile_surface.hpp"
 #include "tests/unit/observables/documented.hpp"
+#include "tests/unit/observables/find.hpp"
 #include "tests/unit/observables/synthetic.hpp"
 
 using namespace pelletlab;
@@ -14,12 +15,6 @@ using namespace pelletlab::synthetic;
 namespace {
 
 constexpr double degree = pi / 180.0;
-
-const Observable& find(const Observables& observables, const std::string& name) {
-    for (const Observable& o : observables.values)
-        if (o.name == name) return o;
-    throw std::runtime_error("no observable " + name);
-}
 
 /// Spheres whose centres lie densely on a cone: their union's top surface is the cone shifted outward by the radius, of the same slope, with its apex
 /// higher by radius/cos(angle) (and a round tip).
