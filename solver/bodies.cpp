@@ -25,7 +25,23 @@ void choose_axes(BodyTemplate& t) {
     t.second_excess = closest < 1e-13 ? 0.0 : 1.0 / i[second] - 1.0 / i[third];
 }
 
+void fill_columns(BodyTemplate& t) {
+    const std::size_t stride = padded_count(t.balls.size());
+    t.columns.assign(4 * stride, 0.0);
+    std::fill(t.columns.end() - static_cast<std::ptrdiff_t>(stride), t.columns.end(), -1e100);
+    for (std::size_t a = 0; a < t.balls.size(); ++a) {
+        const Ball& ball = t.balls[a];
+        t.columns[a] = ball.x, t.columns[stride + a] = ball.y, t.columns[2 * stride + a] = ball.z, t.columns[3 * stride + a] = ball.r;
+    }
+}
+
 }  // namespace
+
+BallColumns columns_of(const BodyTemplate& t) {
+    const std::size_t stride = padded_count(t.balls.size());
+    const double* c = t.columns.data();
+    return {c, c + stride, c + 2 * stride, c + 3 * stride, t.balls.size(), t.bounding_radius};
+}
 
 BodyTemplate make_body_template(const RigidTemplate& rigid) {
     BodyTemplate t;
@@ -37,6 +53,7 @@ BodyTemplate make_body_template(const RigidTemplate& rigid) {
         t.largest_radius = std::max(t.largest_radius, s.radius);
         t.largest_offset = std::max(t.largest_offset, s.centre.norm());
     }
+    fill_columns(t);
     t.bounding_radius = bounding_radius(rigid.spheres);
     const MassProperties& m = rigid.mass_properties;
     t.mass = m.mass;

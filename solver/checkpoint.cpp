@@ -256,7 +256,7 @@ bool install_springs(Simulation::State& s, const Saved& saved) {
         const std::uint32_t i = s.bodies.id(record.i), j = s.bodies.id(record.j);
         if (next == saved.springs.size() || saved.springs[next].i != i || saved.springs[next].j != j) return;
         detail::refresh_candidates(s.pairs, block, record, s.templates[s.bodies.template_of(record.i)], s.templates[s.bodies.template_of(record.j)],
-                                   detail::relative_pose(s.kinematics[record.i], s.kinematics[record.j]), static_cast<std::uint32_t>(s.steps));
+                                   detail::relative_pose(s.kinematics[record.i], s.kinematics[record.j]), *s.kernels, static_cast<std::uint32_t>(s.steps));
         for (std::size_t c = record.first; c < record.first + std::size_t{record.count} && next < saved.springs.size(); ++c) {
             const SavedSpring& spring = saved.springs[next];
             if (spring.i != i || spring.j != j || block.candidates[c].key() != ((spring.a << 16) | spring.b)) continue;

@@ -31,7 +31,7 @@ void pair_contact_forces(PairList& list, std::size_t block_index, const std::vec
         PairRecord& record = list.records[begin + k];
         if (scratch.scratch.stale[k] || too_generous(record, list.pair_skin, clock.index))
             refresh_candidates(list, block, record, templates[record.template_i], templates[record.template_j],
-                               relative_pose(kinematics[record.i], kinematics[record.j]), clock.index);
+                               relative_pose(kinematics[record.i], kinematics[record.j]), kernels, clock.index);
         candidates += record.count;
     }
     view.candidates = block.candidates.data();

@@ -32,63 +32,42 @@ void carry_over(const PairBlock& from, const PairRecord& old, std::size_t rows, 
     to.springs.resize(to.candidates.size() * rows, no_spring);
 }
 
-/// Candidates of a pair and how far apart the nearest spheres are that are not candidates (at least).
-struct Search {
-    std::vector<Candidate> candidates;
-    double nearest_other = 0.0;
-};
+/// Owner of the scratch of a CandidateSearch.
+class SearchStorage {
+public:
+    CandidateSearch search{};
 
-/// Sphere pairs closer than `skin`, sorted by (a, b). Gaps are looked at up to `reach` > skin. Along the line n between the bodies sphere a ends at
-/// top = a · n + r_a and sphere b begins at low = b · n − r_b; their gap is at least low − top, which leaves out all but the spheres that face each other.
-void search(const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& pose, double skin, double reach, Search& found) {
-    struct Facing {
-        double x, y, z, r, along;
-        std::uint16_t index;
-    };
-    thread_local std::vector<Facing> facing_j;  // scratch
-    found.candidates.clear();
-    found.nearest_other = reach;
-    const Matrix3 r = matrix_of(pose.q[0], pose.q[1], pose.q[2], pose.q[3]);
-    const double apart = std::sqrt(pose.p[0] * pose.p[0] + pose.p[1] * pose.p[1] + pose.p[2] * pose.p[2]);
-    const double inverse = apart > 0.0 ? 1.0 / apart : 0.0;
-    const double n[3] = {pose.p[0] * inverse, pose.p[1] * inverse, pose.p[2] * inverse};
-    double highest = -1e300, lowest = 1e300;
-    facing_j.clear();
-    for (const Ball& s : ti.balls) highest = std::max(highest, n[0] * s.x + n[1] * s.y + n[2] * s.z + s.r);
-    // n in the frame of j tells who faces i before anything is turned.
-    double m[3];
-    for (int k = 0; k < 3; ++k) m[k] = r.m[0][k] * n[0] + r.m[1][k] * n[1] + r.m[2][k] * n[2];
-    const double slack = 1e-12 * (apart + ti.bounding_radius + tj.bounding_radius);  // of rounding
-    for (std::size_t b = 0; b < tj.balls.size(); ++b) {
-        const Ball& s = tj.balls[b];
-        const double low = m[0] * s.x + m[1] * s.y + m[2] * s.z + apart - s.r - slack;
-        if (low >= highest + reach) continue;
-        lowest = std::min(lowest, low);
-        facing_j.push_back({r.m[0][0] * s.x + r.m[0][1] * s.y + r.m[0][2] * s.z + pose.p[0], r.m[1][0] * s.x + r.m[1][1] * s.y + r.m[1][2] * s.z + pose.p[1],
-                            r.m[2][0] * s.x + r.m[2][1] * s.y + r.m[2][2] * s.z + pose.p[2], s.r, low, static_cast<std::uint16_t>(b)});
-    }
-    for (std::size_t a = 0; a < ti.balls.size() && !facing_j.empty(); ++a) {
-        const Ball& s = ti.balls[a];
-        const double top = n[0] * s.x + n[1] * s.y + n[2] * s.z + s.r;
-        if (lowest >= top + reach) continue;
-        const double dx = s.x - pose.p[0], dy = s.y - pose.p[1], dz = s.z - pose.p[2];
-        const double limit = tj.bounding_radius + s.r + reach;
-        if (dx * dx + dy * dy + dz * dz >= limit * limit) continue;
-        for (const Facing& t : facing_j) {
-            if (t.along - top >= found.nearest_other) continue;
-            const double ex = t.x - s.x, ey = t.y - s.y, ez = t.z - s.z;
-            const double d2 = ex * ex + ey * ey + ez * ez;
-            const double touch = s.r + t.r;
-            const double within = touch + found.nearest_other;
-            if (d2 >= within * within) continue;
-            if (d2 < (touch + skin) * (touch + skin)) {
-                found.candidates.push_back({static_cast<std::uint16_t>(a), t.index});
-            } else {
-                found.nearest_other = std::min(found.nearest_other, std::sqrt(d2) - touch);
-            }
+    /// Sphere pairs closer than `skin`; gaps are looked at up to `reach` > skin.
+    void run(const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& pose, double skin, double reach, const Kernels& kernels) {
+        const std::size_t stride = tj.balls.size() + 2 * widest;
+        if (columns_.size() < 4 * stride) {
+            columns_.resize(4 * stride);
+            index_.resize(stride);
+        }
+        search.x = columns_.data(), search.y = search.x + stride, search.z = search.y + stride, search.r = search.z + stride;
+        search.index = index_.data();
+        const Matrix3 r = matrix_of(pose.q[0], pose.q[1], pose.q[2], pose.q[3]);
+        for (int i = 0; i < 3; ++i) {
+            search.place[i] = pose.p[i];
+            for (int k = 0; k < 3; ++k) search.turn[3 * i + k] = r.m[i][k];
+        }
+        search.extent = std::abs(pose.p[0]) + std::abs(pose.p[1]) + std::abs(pose.p[2]) + ti.bounding_radius + tj.bounding_radius;
+        search.skin = skin;
+        search.reach = reach;
+        if (found_.empty()) found_.resize(1024);
+        for (;;) {
+            search.found = found_.data();
+            search.capacity = found_.size();
+            if (kernels.search(columns_of(ti), columns_of(tj), search)) return;
+            found_.resize(2 * found_.size());
         }
     }
-}
+
+private:
+    std::vector<double> columns_;
+    std::vector<std::uint16_t> index_;
+    std::vector<Candidate> found_;
+};
 
 /// Consecutive bodies, until their pairs are enough for one piece of work.
 void cut_into_blocks(Pairs& list, std::size_t body_count) {
@@ -161,10 +140,10 @@ RelativePose relative_pose(const Kinematic& i, const Kinematic& j) {
 }
 
 void refresh_candidates(const PairList& list, PairBlock& block, PairRecord& record, const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& pose,
-                        std::uint32_t step) {
+                        const Kernels& kernels, std::uint32_t step) {
     const double usual_skin = list.pair_skin;
     const std::size_t rows = list.spring_rows;
-    thread_local Search found;  // scratch
+    thread_local SearchStorage storage;  // scratch
     thread_local std::vector<Spring> springs;
     const std::uint32_t lasted = step - record.refreshed;
     const double old_skin = static_cast<double>(record.skin);
@@ -174,35 +153,38 @@ void refresh_candidates(const PairList& list, PairBlock& block, PairRecord& reco
     record.skin = static_cast<float>(skin);
     record.refreshed = step;
     const double listed = std::max(skin, 1.01 * list.hold);  // spheres that hold together beyond touching stay listed
-    search(ti, tj, pose, listed, std::max({6.0 * skin, usual_skin, 1.5 * listed}), found);
-    springs.assign(found.candidates.size() * rows, no_spring);
-    std::size_t old = record.first;
-    const std::size_t old_end = record.first + record.count;
-    for (std::size_t k = 0; k < found.candidates.size(); ++k) {  // both lists are sorted by key
-        while (old < old_end && block.candidates[old].key() < found.candidates[k].key()) ++old;
-        if (old < old_end && block.candidates[old].key() == found.candidates[k].key()) {
-            for (std::size_t row = 0; row < rows; ++row) springs[k * rows + row] = block.springs[old * rows + row];
-            found.candidates[k].a = block.candidates[old].a;
-        }
-    }
-    const std::size_t count = found.candidates.size();
+    storage.run(ti, tj, pose, listed, std::max({6.0 * skin, usual_skin, 1.5 * listed}), kernels);
+    const CandidateSearch& search = storage.search;
+    const std::size_t count = search.count;
     if (count > most_candidates)
         throw bad_input("two bodies have more than 65000 pairs of spheres within reach of each other", "use templates with fewer spheres");
-    if (count > record.capacity) {
-        const std::size_t capacity = padded(count);
-        record.first = static_cast<std::uint32_t>(block.candidates.size());
-        record.capacity = static_cast<std::uint16_t>(capacity);
-        block.candidates.resize(record.first + capacity, Candidate{0, 0});
-        block.springs.resize((record.first + capacity) * rows, no_spring);
+    if (count > 0) {
+        springs.assign(count * rows, no_spring);
+        std::size_t old = record.first;
+        const std::size_t old_end = record.first + record.count;
+        for (std::size_t k = 0; k < count; ++k) {  // both lists are sorted by key
+            while (old < old_end && block.candidates[old].key() < search.found[k].key()) ++old;
+            if (old < old_end && block.candidates[old].key() == search.found[k].key()) {
+                for (std::size_t row = 0; row < rows; ++row) springs[k * rows + row] = block.springs[old * rows + row];
+                search.found[k].a = block.candidates[old].a;
+            }
+        }
+        if (count > record.capacity) {
+            const std::size_t capacity = padded(count);
+            record.first = static_cast<std::uint32_t>(block.candidates.size());
+            record.capacity = static_cast<std::uint16_t>(capacity);
+            block.candidates.resize(record.first + capacity, Candidate{0, 0});
+            block.springs.resize((record.first + capacity) * rows, no_spring);
+        }
+        std::copy_n(search.found, count, block.candidates.begin() + record.first);
+        std::copy(springs.begin(), springs.end(), block.springs.begin() + static_cast<std::ptrdiff_t>(record.first * rows));
     }
-    std::copy(found.candidates.begin(), found.candidates.end(), block.candidates.begin() + record.first);
-    std::copy(springs.begin(), springs.end(), block.springs.begin() + static_cast<std::ptrdiff_t>(record.first * rows));
     record.count = static_cast<std::uint16_t>(count);
     for (int k = 0; k < 3; ++k) record.reference[k] = static_cast<float>(pose.p[k]);
     for (int k = 0; k < 4; ++k) record.reference[3 + k] = static_cast<float>(pose.q[k]);
     // The reference pose is kept in float: its rounding is taken off the allowance.
     const double rounding = 2.5e-7 * (std::abs(pose.p[0]) + std::abs(pose.p[1]) + std::abs(pose.p[2]) + 4.0 * tj.largest_offset);
-    record.reference[7] = static_cast<float>(std::max(0.0, found.nearest_other * 0.999999 - rounding));
+    record.reference[7] = static_cast<float>(std::max(0.0, search.nearest_other * 0.999999 - rounding));
 }
 
 void rebuild_pairs(PairList& list, Bodies& bodies, const std::vector<BodyTemplate>& templates) {

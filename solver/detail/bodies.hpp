@@ -14,6 +14,7 @@ namespace pelletlab::solver::detail {
 /// A template turned into what the loops need.
 struct BodyTemplate {
     std::vector<Ball> balls;
+    std::vector<double> columns;  ///< of the balls: x, y, z, r
     double mass = 0.0, inverse_mass = 0.0;
     Vec3 inertia = Vec3::Zero(), inverse_inertia = Vec3::Zero();
     double smallest_inertia = 0.0;
@@ -30,6 +31,7 @@ struct BodyTemplate {
     double second_excess = 0.0;        ///< 1/I_second − 1/I_transverse, 0 for a symmetric top
 };
 
+BallColumns columns_of(const BodyTemplate& t);
 BodyTemplate make_body_template(const RigidTemplate& rigid);
 MotionConstants motion_constants(const BodyTemplate& t);
 

@@ -14,6 +14,14 @@ struct alignas(32) Ball {
     double x, y, z, r;
 };
 
+/// The spheres of a template once more as columns, body frame [m]; each column is filled up to a multiple of `widest` with spheres of radius −1e100, which no
+/// search finds.
+struct BallColumns {
+    const double *x, *y, *z, *r;
+    std::size_t count;
+    double bounding_radius;
+};
+
 /// One body (or wall) as contacts see it, at the instant at which forces are computed. Two rows of one cache line each: place, then motion.
 struct alignas(64) Kinematic {
     double place[8];   ///< position [m] (0–2), orientation w, x, y, z (3–6), largest distance of a sphere's centre from the centre of mass [m] (7)
@@ -211,6 +219,20 @@ struct GatherView {
     double gravity[3];
 };
 
+/// A search for the sphere pairs of two bodies that may touch soon.
+struct CandidateSearch {
+    double place[3], turn[9];  ///< of the second body in the frame of the first [m]; rotation matrix by rows
+    double extent;             ///< [m], as large as any number here, for the rounding of bounds
+    double skin, reach;        ///< [m], gaps that are listed and gaps that are looked at
+    // Scratch, of as many spheres as the second body has and two full registers more.
+    double *x, *y, *z, *r;
+    std::uint16_t* index;
+    std::size_t facing;
+    Candidate* found;  ///< out, sorted by (a, b)
+    std::size_t capacity, count;
+    double nearest_other;  ///< [m], out: sphere pairs that are not listed are at least that far apart, or `reach`
+};
+
 /// Forces of all contacts of a batch; `slots` are those of the pairs.
 using ContactKernel = void (*)(const LawRow& law, ContactBatch& batch, const PairSlot* slots, const StepClock& clock);
 
@@ -220,6 +242,8 @@ struct Kernels {
     const char* name;
     void (*drift)(const BodyArrays& bodies, std::size_t begin, std::size_t end, const DriftSettings& settings, DriftResult& result);
     void (*gather)(const BodyArrays& bodies, const GatherView& loads, std::size_t begin, std::size_t end, double kick);
+    /// False when there is no room for all that may be found.
+    bool (*search)(const BallColumns& first, const BallColumns& second, CandidateSearch& search);
     /// Relative poses of the block's pairs, and which candidate lists are stale.
     void (*find_poses)(const PairBlockView& block, PairScratch& scratch);
     /// Touching spheres, contact forces, history and loads of the block; poses must be there. The batch must have room for all candidates.

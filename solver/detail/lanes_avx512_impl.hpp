@@ -77,6 +77,9 @@ struct Avx512Lanes {
         transpose8(r);
         for (int k = 0; k < 8; ++k) _mm512_storeu_pd(p[k], r[k]);
     }
+    PELLETLAB_LANES static void store_chosen(double* p, unsigned bits, Real a) {
+        _mm512_storeu_pd(p, _mm512_maskz_compress_pd(static_cast<__mmask8>(bits), a.v));
+    }
 };
 
 /// Four lanes again, with the chosen ones packed by one instruction.

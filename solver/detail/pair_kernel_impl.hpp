@@ -4,6 +4,7 @@
 
 #include "solver/detail/contact_kernel_impl.hpp"
 #include "solver/detail/motion_kernel_impl.hpp"
+#include "solver/detail/search_kernel_impl.hpp"
 
 namespace pelletlab::solver::detail {
 namespace {
@@ -273,7 +274,7 @@ struct ContactKernels {
 
 template <class L, class S>
 constexpr Kernels make_kernels(const char* name) {
-    Kernels k{name, &drift<L>, &gather<L>, &find_poses<L>, &pair_forces<L, S, false>, &pair_forces<L, S, true>, {}, {}};
+    Kernels k{name, &drift<L>, &gather<L>, &search_candidates<L>, &find_poses<L>, &pair_forces<L, S, false>, &pair_forces<L, S, true>, {}, {}};
     for (std::size_t rolling = 0; rolling < rolling_model_count; ++rolling) {
         using Plain = ContactKernels<L, false>;
         using Rich = ContactKernels<L, true>;

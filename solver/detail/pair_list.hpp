@@ -84,7 +84,7 @@ RelativePose relative_pose(const Kinematic& i, const Kinematic& j);
 
 /// Finds the candidates of a record anew for this relative pose; history is carried over by (sphere a, sphere b).
 void refresh_candidates(const PairList& list, PairBlock& block, PairRecord& record, const BodyTemplate& ti, const BodyTemplate& tj, const RelativePose& pose,
-                        std::uint32_t step);
+                        const Kernels& kernels, std::uint32_t step);
 
 /// True when the list has lasted so long that a smaller skin would do.
 inline bool too_generous(const PairRecord& record, double usual_skin, std::uint32_t step) {
