@@ -88,7 +88,7 @@ void Bodies::resize(std::size_t n) {
     id_.resize(n), place_of_.resize(n);
     count_ = n;
     template_index_.resize(padded, 0);
-    each_column(*this, [padded](std::vector<double>& c) { c.resize(padded, 0.0); });
+    each_column(*this, [padded](LargeVector<double>& c) { c.resize(padded, 0.0); });
     for (auto& c : reference_) c.resize(padded, 0.0);
 }
 
@@ -129,13 +129,13 @@ BodyArrays Bodies::arrays(const MotionConstants* constants, Kinematic* records) 
 std::array<double, Bodies::number_count> Bodies::numbers(std::size_t i) const {
     std::array<double, number_count> values{};
     std::size_t k = 0;
-    each_column(*this, [&](const std::vector<double>& c) { values[k++] = c[i]; });
+    each_column(*this, [&](const LargeVector<double>& c) { values[k++] = c[i]; });
     return values;
 }
 
 void Bodies::set_numbers(std::size_t i, const std::array<double, number_count>& values) {
     std::size_t k = 0;
-    each_column(*this, [&](std::vector<double>& c) { c[i] = values[k++]; });
+    each_column(*this, [&](LargeVector<double>& c) { c[i] = values[k++]; });
 }
 
 }  // namespace pelletlab::solver::detail

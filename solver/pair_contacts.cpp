@@ -4,7 +4,7 @@
 
 namespace pelletlab::solver::detail {
 
-void pair_contact_forces(PairList& list, std::size_t block_index, const std::vector<Kinematic>& kinematics, const std::vector<BodyTemplate>& templates,
+void pair_contact_forces(PairList& list, std::size_t block_index, const LargeVector<Kinematic>& kinematics, const std::vector<BodyTemplate>& templates,
                          const std::vector<const Ball*>& balls, const LawRow& law, ContactKernel contact, const Kernels& kernels, const StepClock& clock) {
     thread_local PairScratchStorage scratch;  // both hold nothing between calls
     thread_local BatchStorage storage;

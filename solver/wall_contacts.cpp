@@ -311,7 +311,7 @@ void move_wall(Wall& wall, std::uint64_t step, double dt) {
     wall.record.place[7] = wall.record.motion[6] = wall.record.motion[7] = 0.0;
 }
 
-void wall_contact_forces(Wall& wall, std::size_t block, std::size_t begin, std::size_t end, const std::vector<Kinematic>& kinematics, const Bodies& bodies,
+void wall_contact_forces(Wall& wall, std::size_t block, std::size_t begin, std::size_t end, const LargeVector<Kinematic>& kinematics, const Bodies& bodies,
                          const std::vector<BodyTemplate>& templates, const WallSkins& skins, const StepClock& clock) {
     thread_local Scratch s;  // grows once, holds nothing between calls
     s.storage.batch.size = 0;

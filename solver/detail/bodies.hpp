@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/large_pages.hpp"
 #include "core/rigid_template.hpp"
 #include "core/vec.hpp"
 #include "solver/detail/kernels.hpp"
@@ -74,7 +75,7 @@ public:
 
 private:
     template <std::size_t N>
-    using Columns = std::array<std::vector<double>, N>;
+    using Columns = std::array<LargeVector<double>, N>;
     std::size_t count_ = 0;
     std::vector<std::uint32_t> template_index_, id_, place_of_;
     Columns<3> position_, velocity_, momentum_, force_, torque_, reference_;

@@ -21,14 +21,14 @@ struct PairBlock {
     std::uint32_t body_begin = 0, body_end = 0;
     std::uint32_t pair_begin = 0, pair_end = 0;
     static constexpr std::size_t candidate_padding = 4;
-    std::vector<Candidate> candidates;
-    std::vector<Spring> springs;  ///< PairList::spring_rows a candidate
+    LargeVector<Candidate> candidates;
+    LargeVector<Spring> springs;  ///< PairList::spring_rows a candidate
 };
 
 /// The pairs themselves: what a rebuild carries over.
 struct Pairs {
     NeighbourRows rows;
-    std::vector<PairRecord> records;  ///< by the place of i, then the id of j; i is the one with the smaller id
+    LargeVector<PairRecord> records;  ///< by the place of i, then the id of j; i is the one with the smaller id
     std::vector<PairBlock> blocks;    ///< in the order of bodies and pairs
     std::vector<std::uint32_t> block_of_body;
     std::vector<std::uint32_t> place_of_id;  ///< where bodies lay when the list was made
@@ -37,9 +37,9 @@ struct Pairs {
 struct PairList : Pairs {
     Pairs previous;  ///< of the last rebuild; kept because its memory serves the next one
     NeighbourScratch scratch;
-    std::vector<LoadRow> loads_j;  ///< per pair: what the second body feels, world; valid where touching
+    LargeVector<LoadRow> loads_j;  ///< per pair: what the second body feels, world; valid where touching
     std::vector<std::uint8_t> touching;
-    std::vector<LoadRow> own_loads;  ///< per body: what it feels from the pairs in which it is the first; valid where own_touching
+    LargeVector<LoadRow> own_loads;  ///< per body: what it feels from the pairs in which it is the first; valid where own_touching
     std::vector<std::uint8_t> own_touching;
     std::vector<std::uint32_t> incoming_first, incoming;  ///< for body j: the records in which it is the second one, by the id of i
     std::size_t body_count = 0;                           ///< at the last rebuild

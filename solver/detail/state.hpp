@@ -31,7 +31,7 @@ struct Simulation::State {
 
     std::uint64_t steps = 0;
     detail::Bodies bodies;
-    std::vector<detail::Kinematic> kinematics;
+    LargeVector<detail::Kinematic> kinematics;
     detail::PairList pairs;
     std::vector<detail::Wall> walls;
     std::vector<WallLoad> wall_loads;

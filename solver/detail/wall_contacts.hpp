@@ -64,8 +64,8 @@ struct Wall {
     std::uint64_t motion_start = 0;  ///< step at which `motion` began
     Pose start_pose, pose;
     Kinematic record;                ///< pose and velocity as contacts see them
-    std::vector<WallWatch> watches;  ///< one a body
-    std::vector<LoadRow> loads;      ///< on each body, world, about its centre of mass; valid where touching
+    LargeVector<WallWatch> watches;  ///< one a body
+    LargeVector<LoadRow> loads;      ///< on each body, world, about its centre of mass; valid where touching
     std::vector<std::uint8_t> touching;
     std::vector<LoadRow> books;  ///< per block of bodies, where the law books; see BookColumn
 };
@@ -80,7 +80,7 @@ struct WallSkins {
 };
 
 /// Forces of the wall on bodies [begin, end), the bodies of block `block`.
-void wall_contact_forces(Wall& wall, std::size_t block, std::size_t begin, std::size_t end, const std::vector<Kinematic>& kinematics, const Bodies& bodies,
+void wall_contact_forces(Wall& wall, std::size_t block, std::size_t begin, std::size_t end, const LargeVector<Kinematic>& kinematics, const Bodies& bodies,
                          const std::vector<BodyTemplate>& templates, const WallSkins& skins, const StepClock& clock);
 
 /// One contact of a body with a wall, frame of the wall.
