@@ -14,6 +14,7 @@
 #include "apps/terminal.hpp"
 #include "core/error.hpp"
 #include "experiments/rotating_drum.hpp"
+#include "experiments/sandpile.hpp"
 #include "io/case_file.hpp"
 #include "io/clump_file.hpp"
 #include "io/files.hpp"
@@ -29,8 +30,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const char* name_of(Rig rig) {
-    return rig == Rig::tube ? "tube" : "drum";
+std::string verb_of(Rig rig) {
+    return rig == Rig::tube ? "fill" : rig_name(rig);
+}
+
+/// Files of a user's own walls; empty where the walls are made.
+std::vector<std::string*> wall_meshes(Case& c) {
+    return {&c.tube.mesh_file, &c.drum.mesh_file, &c.pile.mesh_file, &c.funnel.mesh_file, &c.tester.mesh_file, &c.tester.baffle_mesh_file};
 }
 
 fs::path beside_case(const Case& c, const std::string& file) {
@@ -39,19 +45,20 @@ fs::path beside_case(const Case& c, const std::string& file) {
 
 StageKey key_of(const Case& c, const fs::path& clump_file) {
     StageKey key;
-    key.verb = c.rig == Rig::tube ? "fill" : "drum";
+    key.verb = verb_of(c.rig);
     key.settings = io::resolved_case_text(c);
     key.inputs["clump"] = io::sha256_of_file(clump_file);
-    const std::string& wall_mesh = c.rig == Rig::tube ? c.tube.mesh_file : c.drum.mesh_file;
-    if (!wall_mesh.empty()) key.inputs["wall mesh"] = io::sha256_of_file(beside_case(c, wall_mesh));
+    Case own = c;
+    for (const std::string* mesh : wall_meshes(own))
+        if (!mesh->empty()) key.inputs["wall mesh " + *mesh] = io::sha256_of_file(beside_case(c, *mesh));
     return key;
 }
 
 packing::RunResult run_rig(const Case& c, const packing::RunInputs& inputs, RunKeeper& keeper, const fs::path& trajectory_file) {
     const auto open_sink = [&](const TrajectoryHeader& header) { return keeper.open(header); };
     ProgressPrinter progress;
-    packing::RunResult result = c.rig == Rig::tube ? packing::fill_tube(c, inputs, open_sink, progress.sink(), keeper.keeping())
-                                                   : experiments::run_drum(c, inputs, open_sink, progress.sink(), keeper.keeping());
+    const auto run = c.rig == Rig::tube ? packing::fill_tube : c.rig == Rig::drum ? experiments::run_drum : experiments::run_pile;
+    packing::RunResult result = run(c, inputs, open_sink, progress.sink(), keeper.keeping());
     progress.finish();
     keeper.finish(trajectory_file);
     return result;
@@ -65,11 +72,25 @@ void write_pictures(const Case& c, const FrameSource& trajectory, const Observab
     settings.draw_spheres = c.output.picture_spheres;
     if (c.rig == Rig::drum) settings.circle_diameter = c.drum.diameter;
     const Frame last = trajectory.frame(trajectory.frame_count() - 1);
-    const std::string bed = std::string(name_of(c.rig)) + ".png";
-    report::write_png(
-        c.rig == Rig::tube ? report::picture_of_tube(trajectory.header(), last, settings) : report::picture_of_drum(trajectory.header(), last, settings),
-        folder / bed);
+    const std::string bed = rig_name(c.rig) + ".png";
+    const auto draw = [&] {
+        switch (c.rig) {
+            case Rig::drum:
+            case Rig::tester:
+                return report::picture_of_drum(trajectory.header(), last, settings);
+            case Rig::pile:
+                return report::picture_of_pile(trajectory.header(), last, settings);
+            case Rig::tube:
+                break;
+        }
+        return report::picture_of_tube(trajectory.header(), last, settings);
+    };
+    report::write_png(draw(), folder / bed);
     written.emplace_back(bed, settings.draw_spheres ? "last frame, the clumps' spheres" : "last frame, true pellet surface");
+    if (c.rig == Rig::pile && !observables.maps.empty()) {
+        report::write_png(report::picture_of_map(observables, "pile_top_surface", settings), folder / "top-surface.png");
+        written.emplace_back("top-surface.png", "height of the pile, seen from above");
+    }
     if (c.rig == Rig::drum) {
         report::write_png(report::picture_of_map(observables, "speed", settings), folder / "velocity-map.png");
         written.emplace_back("velocity-map.png", "mean velocity over the end view");
@@ -78,7 +99,9 @@ void write_pictures(const Case& c, const FrameSource& trajectory, const Observab
 
 /// The case with its relative paths turned so that they lead to the same files from `folder`.
 Case as_seen_from(Case c, const fs::path& folder) {
-    for (std::string* file : {&c.pellet.clump_file, &c.tube.mesh_file, &c.drum.mesh_file})
+    std::vector<std::string*> files = wall_meshes(c);
+    files.push_back(&c.pellet.clump_file);
+    for (std::string* file : files)
         if (!file->empty() && fs::path(*file).is_relative()) *file = fs::relative(beside_case(c, *file), folder).generic_string();
     return c;
 }
@@ -118,8 +141,7 @@ RunSummary run_case(const RunRequest& request, Rig expected) {
     const Stopwatch stopwatch;
     const Case c = io::read_case(request.case_file, request.overrides);
     if (c.rig != expected)
-        throw usage_error(fmt::format("'{}' is a case for the {}", request.case_file.string(), name_of(c.rig)),
-                          c.rig == Rig::tube ? "run it with: pelletlab fill" : "run it with: pelletlab drum");
+        throw usage_error(fmt::format("'{}' is a case for the {}", request.case_file.string(), rig_name(c.rig)), "run it with: pelletlab " + verb_of(c.rig));
 
     const fs::path clump_file = beside_case(c, c.pellet.clump_file);
     if (!fs::exists(clump_file))

@@ -41,8 +41,11 @@ void add_case_verb(CLI::App& app) {
     verb->fallthrough();
 
     CLI::App* make = verb->add_subcommand("new", "A commented case file to start from\n  example: pelletlab case new drum -o my_drum.toml");
-    make->add_option("rig", options->rig, "tube or drum")->required()->check(CLI::IsMember({"tube", "drum"}));
-    make->callback([options] { deliver(*options, io::new_case_text(options->rig == "drum" ? Rig::drum : Rig::tube)); });
+    make->add_option("rig", options->rig, "tube, drum, pile or tester")->required()->check(CLI::IsMember({"tube", "drum", "pile", "tester"}));
+    make->callback([options] {
+        for (const Rig rig : all_rigs)
+            if (rig_name(rig) == options->rig) deliver(*options, io::new_case_text(rig));
+    });
 
     CLI::App* check = verb->add_subcommand("check", "Read a case and print it with every default resolved\n  example: pelletlab case check examples/drum.toml");
     check->add_option("case", options->file, "Case file (TOML)")->required();

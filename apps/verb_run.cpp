@@ -1,4 +1,4 @@
-// pelletlab fill CASE and pelletlab drum CASE: stages 2 and 3 on the command line.
+// pelletlab fill, drum and pile CASE: the rigs on the command line.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -45,6 +45,12 @@ void add_fill_verb(CLI::App& app) {
 void add_drum_verb(CLI::App& app) {
     add_run_verb(app, Rig::drum, "drum",
                  "Turn a drum and measure angles of repose and velocities\n  example: pelletlab drum examples/drum.toml --set drum.speed=\"50 rpm\"");
+}
+
+void add_pile_verb(CLI::App& app) {
+    add_run_verb(app, Rig::pile, "pile",
+                 "Pour a pile on a plate, from a funnel or a lifted cylinder, and measure it\n"
+                 "  example: pelletlab pile examples/sandpile.toml --set pellet.count=1000");
 }
 
 }  // namespace pelletlab::apps

@@ -2,6 +2,7 @@
 // reads it from TOML, knows the defaults and documents every key; the values below are the same defaults.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -11,15 +12,13 @@
 
 namespace pelletlab {
 
-enum class Rig { tube, drum };
+enum class Rig { tube, drum, pile, tester };
+
+inline constexpr std::array<Rig, 4> all_rigs{Rig::tube, Rig::drum, Rig::pile, Rig::tester};
 
 inline std::string rig_name(Rig rig) {
-    return rig == Rig::drum ? "drum" : "tube";
-}
-
-/// Names of a rig's walls: a contact row «pellet-<wall name>» goes before «pellet-<material of the wall>».
-inline std::vector<std::string> wall_names(Rig rig) {
-    return rig == Rig::drum ? std::vector<std::string>{"shell", "front", "back"} : std::vector<std::string>{"shell", "floor"};
+    constexpr std::array<const char*, 4> names{"tube", "drum", "pile", "tester"};
+    return names[static_cast<std::size_t>(rig)];
 }
 
 /// Elastic constants and density of one material.
@@ -72,12 +71,13 @@ struct PelletChoice {
     bool operator==(const PelletChoice&) const = default;
 };
 
-/// Vertical tube: axis z, floor at z = 0.
+/// Vertical tube: axis z, floor at z = 0. A lying one: axis y, centre in the origin, end plates at y = ±height/2.
 struct TubeRig {
     double diameter = 0.052;    ///< [m], inner
-    double height = 0.0;        ///< [m]; 0: high enough for the insertion
+    double height = 0.0;        ///< [m]; 0: high enough for the insertion; of a lying tube its length
+    bool lying = false;         ///< filled and measured with its axis level
     std::uint32_t facets = 96;  ///< of the shell
-    std::string mesh_file;      ///< a user's own shell and floor instead of the maker's
+    std::string mesh_file;      ///< a user's own vessel instead of the maker's
     std::string mesh_unit;
     std::string material = "vessel";
     bool operator==(const TubeRig&) const = default;
@@ -99,18 +99,68 @@ struct DrumRig {
     bool operator==(const DrumRig&) const = default;
 };
 
+/// Funnel with a shutter, about the z axis: cylinder above, cone, round outlet. Of the pile (release «funnel») and of the tube (insertion.way «funnel»).
+struct FunnelRig {
+    double outlet_diameter = 0.030;          ///< [m]
+    double top_diameter = 0.100;             ///< [m], of the cylinder above the cone
+    double half_angle = 0.5235987755982988;  ///< [rad], between the cone's wall and the vertical: 30°
+    double outlet_height = 0.0;              ///< [m] of the outlet above the plate or the tube's floor; 0: 100 mm, or just above the tube's rim
+    double shutter_time = 0.05;              ///< [s] in which the shutter slides away
+    std::uint32_t facets = 96;
+    std::string mesh_file;  ///< a user's own funnel instead of the maker's
+    std::string mesh_unit;
+    bool operator==(const FunnelRig&) const = default;
+};
+
+/// A pile on a flat plate z = 0. What runs off the plate falls into a tray below it.
+struct PileRig {
+    std::string release = "funnel";    ///< «funnel»: see FunnelRig; «cylinder»: an open cylinder that stands on the plate is lifted
+    double plate_diameter = 0.400;     ///< [m]
+    double cylinder_diameter = 0.030;  ///< [m], inner
+    double lift_speed = 0.020;         ///< [m/s]
+    double discharge_limit = 4.0;      ///< [s] after the release began; a pile not at rest by then gets the status «not at rest»
+    std::string mesh_file;             ///< a user's own cylinder
+    std::string mesh_unit;
+    std::string material = "vessel";
+    bool operator==(const PileRig&) const = default;
+};
+
+/// Attrition tester (ASTM D4058): a drum as DrumRig, with one radial baffle over its length. The baffle's angle is 0 at the bottom and grows with the turn.
+struct TesterRig {
+    double diameter = 0.254;                       ///< [m], inner
+    double length = 0.152;                         ///< [m]
+    double baffle_height = 0.051;                  ///< [m], from the shell inward; 0: no baffle
+    double baffle_thickness = 0.003;               ///< [m]
+    double baffle_start = 3.14159265358979323846;  ///< [rad], angle while the pellets are filled in; at the top
+    double speed = 4.1887902047863905;             ///< [rad/s], 40 rpm
+    std::uint32_t facets = 120;
+    std::string mesh_file;         ///< a user's own shell and end plates
+    std::string baffle_mesh_file;  ///< a user's own baffle, at the angle baffle_start
+    std::string mesh_unit;         ///< of both
+    std::string material = "vessel";
+    bool operator==(const TesterRig&) const = default;
+};
+
 struct Insertion {
+    std::string way = "cloud";       ///< of a tube: «cloud», «sieve», «batches», «funnel»
     double packing_fraction = 0.20;  ///< of the loose cloud of pellets before they fall
     double fall_speed = 0.0;         ///< [m/s], downward speed at release
+    std::uint32_t batches = 4;       ///< of way «batches»: each comes to rest before the next falls
+    double sieve_rate = 5000.0;      ///< [1/s], pellets that leave the sieve, of way «sieve»
+    double sieve_height = 0.0;       ///< [m] of the sieve above the floor; 0: twice the height that the bed will have, and 50 mm
+    std::uint32_t taps = 0;          ///< of the vessel once the bed is at rest
+    double tap_amplitude = 0.001;    ///< [m], upward
+    double tap_frequency = 20.0;     ///< [Hz], of the single swing of a tap
     bool operator==(const Insertion&) const = default;
 };
 
 struct TimeControl {
     double step = 1e-5;                 ///< [s]
     double settle_limit = 2.0;          ///< [s], a bed not at rest by then gets the status «not at rest»
-    double rest_kinetic_energy = 1e-6;  ///< bed counts as at rest when kinetic energy per pellet < this · m g d
-    double spin_up = 1.0;               ///< [s] of rotation before measuring (drum)
-    double measure = 1.0;               ///< [s] of rotation measured (drum)
+    double rest_kinetic_energy = 1e-6;  ///< bed counts as at rest when kinetic energy per pellet < this · m g d …
+    double rest_contact_change = 0.01;  ///< … and the number of touching pairs stays within this share of itself
+    double spin_up = 1.0;               ///< [s] of rotation before measuring (drum, tester)
+    double measure = 1.0;               ///< [s] of rotation measured (drum, tester)
     bool operator==(const TimeControl&) const = default;
 };
 
@@ -125,8 +175,8 @@ struct Output {
 };
 
 struct Measurement {
-    double height_grid = 0.001;    ///< [m], cell of the top-surface grid (tube)
-    double velocity_grid = 0.002;  ///< [m], cell of the velocity map (drum)
+    double height_grid = 0.001;    ///< [m], cell of the top-surface grid (tube, pile)
+    double velocity_grid = 0.002;  ///< [m], cell of the maps (drum, tester)
     bool operator==(const Measurement&) const = default;
 };
 
@@ -141,6 +191,9 @@ struct Case {
     PhysicsChoice physics;
     TubeRig tube;
     DrumRig drum;
+    PileRig pile;
+    FunnelRig funnel;
+    TesterRig tester;
     Insertion insertion;
     TimeControl time;
     Output output;
@@ -148,5 +201,32 @@ struct Case {
     std::string folder;  ///< of the case file; relative paths in it start here
     bool operator==(const Case&) const = default;
 };
+
+/// True for a case that pours through a funnel.
+inline bool has_funnel(const Case& c) {
+    return (c.rig == Rig::pile && c.pile.release == "funnel") || (c.rig == Rig::tube && !c.tube.lying && c.insertion.way == "funnel");
+}
+
+/// Names of the case's walls: a contact row «pellet-<wall name>» goes before «pellet-<material of the wall>».
+inline std::vector<std::string> wall_names(const Case& c) {
+    std::vector<std::string> names;
+    switch (c.rig) {
+        case Rig::tube:
+            names = c.tube.lying ? std::vector<std::string>{"shell", "front", "back"} : std::vector<std::string>{"shell", "floor"};
+            break;
+        case Rig::drum:
+            names = {"shell", "front", "back"};
+            break;
+        case Rig::pile:
+            names = {"plate", "tray"};
+            if (c.pile.release == "cylinder") names.emplace_back("cylinder");
+            break;
+        case Rig::tester:
+            names = {"shell", "front", "back", "baffle"};
+            break;
+    }
+    if (has_funnel(c)) names.insert(names.end(), {"funnel", "shutter"});
+    return names;
+}
 
 }  // namespace pelletlab

@@ -29,14 +29,14 @@ void check_material(const Case& c, const std::string& key, const std::string& na
 
 /// A row's name is «pellet-» and then «pellet», a wall of the rig or a material.
 void check_contact_name(const Case& c, const std::string& name, const CasePlaces& places) {
-    std::vector<std::string> partners = wall_names(c.rig);
+    std::vector<std::string> partners = wall_names(c);
     partners.emplace_back("pellet");
     for (const std::string& material : defined_materials(c)) partners.push_back(material);
     std::vector<std::string> rows;
     for (const std::string& partner : partners) rows.push_back("pellet-" + partner);
     if (default_contact(name) != nullptr || std::find(rows.begin(), rows.end(), name) != rows.end()) return;
     std::string walls;
-    for (const std::string& wall : wall_names(c.rig)) walls += ", '" + wall + "'";
+    for (const std::string& wall : wall_names(c)) walls += ", '" + wall + "'";
     throw bad_input("contacts." + toml_key(name) + ": its partner is no wall of the rig and no defined material",
                     suggestion(name, rows) + "name it pellet-<partner>, the partner 'pellet'" + walls + " or a material",
                     places.of({"contacts." + toml_key(name)}));
@@ -48,7 +48,7 @@ void check_contacts(const Case& c, const CasePlaces& places) {
         throw bad_input("the contact row pellet-pellet is missing", "add [contacts.pellet-pellet]", places.of({"contacts"}));
     const std::string& material = wall_material(c);
     if (c.contacts.contains("pellet-" + material)) return;
-    for (const std::string& wall : wall_names(c.rig)) {
+    for (const std::string& wall : wall_names(c)) {
         if (c.contacts.contains("pellet-" + wall)) continue;
         throw bad_input("the wall '" + wall + "' has no contact row with the pellets",
                         "add [contacts." + toml_key("pellet-" + material) + "] for its material or [contacts.pellet-" + wall + "] for this wall",
@@ -68,13 +68,60 @@ void check_mesh(const std::string& rig, const std::string& mesh_file, const std:
     }
 }
 
+void check_tube(const Case& c, const CasePlaces& places) {
+    check_mesh("tube", c.tube.mesh_file, c.tube.mesh_unit, places);
+    if (c.tube.lying && !(c.tube.height > 0.0))
+        throw bad_input("a lying tube needs its length", "write tube.height = \"90 mm\"", places.of({"tube.height", "tube.lying"}));
+    if (c.tube.lying && c.insertion.way != "cloud")
+        throw bad_input("a lying tube is closed by end plates: it can only be filled with a cloud of pellets", "write insertion.way = \"cloud\"",
+                        places.of({"insertion.way", "tube.lying"}));
+    if (c.insertion.way == "sieve" && c.tube.height > 0.0 && c.insertion.sieve_height > c.tube.height)
+        throw bad_input("the sieve lies above the rim of the tube", "lower insertion.sieve_height, or raise tube.height",
+                        places.of({"insertion.sieve_height", "tube.height"}));
+    if (c.insertion.way == "batches" && c.insertion.batches > c.pellet.count)
+        throw bad_input("there are more batches than pellets", "lower insertion.batches", places.of({"insertion.batches", "pellet.count"}));
+}
+
+void check_funnel(const Case& c, const CasePlaces& places) {
+    check_mesh("funnel", c.funnel.mesh_file, c.funnel.mesh_unit, places);
+    if (c.funnel.outlet_diameter >= c.funnel.top_diameter)
+        throw bad_input("the outlet of the funnel is not narrower than its top", "correct funnel.outlet_diameter or funnel.top_diameter",
+                        places.of({"funnel.outlet_diameter", "funnel.top_diameter"}));
+    if (c.rig == Rig::tube && c.funnel.outlet_diameter > c.tube.diameter)
+        throw bad_input("the outlet of the funnel is wider than the tube: pellets would fall beside it", "make funnel.outlet_diameter smaller",
+                        places.of({"funnel.outlet_diameter", "tube.diameter"}));
+    if (c.rig == Rig::tube && c.funnel.outlet_height > 0.0 && c.tube.height > 0.0 && c.funnel.outlet_height < c.tube.height)
+        throw bad_input("the outlet of the funnel lies below the rim of the tube", "raise funnel.outlet_height, or leave it at 0",
+                        places.of({"funnel.outlet_height", "tube.height"}));
+}
+
+void check_tester(const Case& c, const CasePlaces& places) {
+    const TesterRig& t = c.tester;
+    check_mesh("tester", t.mesh_file.empty() ? t.baffle_mesh_file : t.mesh_file, t.mesh_unit, places);
+    if (t.baffle_height >= 0.5 * t.diameter)
+        throw bad_input("the baffle reaches the axis of the tester", "make tester.baffle_height smaller than half of tester.diameter",
+                        places.of({"tester.baffle_height", "tester.diameter"}));
+    if (t.baffle_height > 0.0 && t.baffle_thickness > t.baffle_height)
+        throw bad_input("the baffle is thicker than high", "make tester.baffle_thickness smaller",
+                        places.of({"tester.baffle_thickness", "tester.baffle_height"}));
+    if (t.speed == 0.0) throw bad_input("tester.speed is zero", "state the speed of rotation, \"40 rpm\"", places.of({"tester.speed"}));
+}
+
+void check_rig(const Case& c, const CasePlaces& places) {
+    if (c.rig == Rig::tube) check_tube(c, places);
+    if (c.rig == Rig::drum) check_mesh("drum", c.drum.mesh_file, c.drum.mesh_unit, places);
+    if (c.rig == Rig::pile) check_mesh("pile", c.pile.mesh_file, c.pile.mesh_unit, places);
+    if (c.rig == Rig::tester) check_tester(c, places);
+    if (has_funnel(c)) check_funnel(c, places);
+}
+
 void check_times(const Case& c, const CasePlaces& places) {
     if (c.time.step > c.output.frame_interval)
         throw bad_input("time.step is longer than output.frame_interval", "store frames less often, or shorten the step",
                         places.of({"time.step", "output.frame_interval"}));
     if (c.time.step > c.time.settle_limit)
         throw bad_input("time.step is longer than time.settle_limit", "raise the limit, or shorten the step", places.of({"time.settle_limit", "time.step"}));
-    if (c.rig == Rig::drum && c.output.frame_interval > c.time.measure)
+    if ((c.rig == Rig::drum || c.rig == Rig::tester) && c.output.frame_interval > c.time.measure)
         throw bad_input("output.frame_interval is longer than time.measure: no frame would be measured", "store frames more often, or measure longer",
                         places.of({"time.measure", "output.frame_interval"}));
 }
@@ -83,6 +130,9 @@ void check_sizes(const Case& c, const CasePlaces& places) {
     if (c.rig == Rig::tube && c.measurement.height_grid > c.tube.diameter)
         throw bad_input("measurement.height_grid is larger than the tube's diameter", "choose a finer grid",
                         places.of({"measurement.height_grid", "tube.diameter"}));
+    if (c.rig == Rig::tester && c.measurement.velocity_grid > c.tester.diameter)
+        throw bad_input("measurement.velocity_grid is larger than the tester's diameter", "choose a finer grid",
+                        places.of({"measurement.velocity_grid", "tester.diameter"}));
     if (c.rig == Rig::drum && c.measurement.velocity_grid > c.drum.diameter)
         throw bad_input("measurement.velocity_grid is larger than the drum's diameter", "choose a finer grid",
                         places.of({"measurement.velocity_grid", "drum.diameter"}));
@@ -110,16 +160,13 @@ void check_case(const Case& c, const CasePlaces& places) {
                         places.of({"gravity"}));
     if (c.pellet.clump_file.empty())
         throw bad_input("pellet.clump_file is empty", "name the clump template, made by `pelletlab shape`", places.of({"pellet.clump_file"}));
-    if (c.rig == Rig::tube && c.pellet.count == 0)
+    if (c.rig != Rig::drum && c.pellet.count == 0)
         throw bad_input("pellet.count is 0: only a drum has a fill fraction to take the number from", "state the number of pellets",
                         places.of({"pellet.count"}));
     check_material(c, "pellet.material", c.pellet.material, places);
     check_material(c, rig_name(c.rig) + ".material", wall_material(c), places);
     check_contacts(c, places);
-    if (c.rig == Rig::drum)
-        check_mesh("drum", c.drum.mesh_file, c.drum.mesh_unit, places);
-    else
-        check_mesh("tube", c.tube.mesh_file, c.tube.mesh_unit, places);
+    check_rig(c, places);
     check_times(c, places);
     check_sizes(c, places);
 }

@@ -61,9 +61,9 @@ std::string description(const CaseKey& key) {
     return text;
 }
 
-/// Default of the key as it stands in a file; for materials and contacts those of the named ones, both rigs where they differ.
+/// Default of the key as it stands in a file; for materials and contacts those of the named ones, those of other rigs where they differ.
 std::string default_words(const CaseKey& key) {
-    const Case tube = default_case(Rig::tube), drum = default_case(Rig::drum);
+    const Case tube = default_case(Rig::tube);
     if (key.path.size() == 3) {
         std::string words;
         for (const std::string& name : names_in(tube, {{key.path[0], "*"}, ""}))
@@ -71,8 +71,12 @@ std::string default_words(const CaseKey& key) {
         return words;
     }
     if (key.path[0] == "rig") return value_as_toml(key, key.get(tube, ""));
-    const std::string in_tube = value_as_toml(key, key.get(tube, "")), in_drum = value_as_toml(key, key.get(drum, ""));
-    return in_tube == in_drum ? in_tube : in_tube + " (drum: " + in_drum + ")";
+    const std::string in_tube = value_as_toml(key, key.get(tube, ""));
+    std::string others;
+    for (const Rig rig : all_rigs)
+        if (const std::string in_rig = value_as_toml(key, key.get(default_case(rig), "")); in_rig != in_tube)
+            others += (others.empty() ? "" : ", ") + rig_name(rig) + ": " + in_rig;
+    return others.empty() ? in_tube : in_tube + " (" + others + ")";
 }
 
 Json section_schema(const CaseSection& section) {

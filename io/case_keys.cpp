@@ -1,121 +1,14 @@
 #include <algorithm>
-#include <stdexcept>
-#include <type_traits>
 #include <utility>
 
 #include "core/error.hpp"
 #include "io/case_file.hpp"
+#include "io/detail/case_key_makers.hpp"
 #include "io/detail/case_keys.hpp"
 
 namespace pelletlab::io::detail {
 
 namespace {
-
-std::vector<std::string> split(const std::string& text) {
-    std::vector<std::string> segments(1);
-    for (const char c : text) {
-        if (c == '.')
-            segments.emplace_back();
-        else
-            segments.back() += c;
-    }
-    return segments;
-}
-
-template <class T>
-CaseValue to_value(const T& member) {
-    if constexpr (std::is_same_v<T, Rig>)
-        return rig_name(member);
-    else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
-        return static_cast<std::uint64_t>(member);
-    else
-        return member;
-}
-
-template <class T>
-void from_value(T& member, const CaseValue& value) {
-    if constexpr (std::is_same_v<T, Rig>)
-        member = std::get<std::string>(value) == "drum" ? Rig::drum : Rig::tube;
-    else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
-        member = static_cast<T>(std::get<std::uint64_t>(value));
-    else
-        member = std::get<T>(value);
-}
-
-template <class T>
-constexpr KeyKind kind_of() {
-    if constexpr (std::is_same_v<T, double>) return KeyKind::number;
-    if constexpr (std::is_same_v<T, bool>) return KeyKind::flag;
-    if constexpr (std::is_same_v<T, std::string>) return KeyKind::text;
-    if constexpr (std::is_same_v<T, Vec3>) return KeyKind::vector3d;
-    if constexpr (std::is_same_v<T, Rig>) return KeyKind::choice;
-    return KeyKind::whole;
-}
-
-/// `member(case, name)` is the place of the value in the case, const or not.
-template <class Member>
-CaseKey key(const char* path, Member member, const char* doc) {
-    using T = std::remove_cvref_t<decltype(member(std::declval<Case&>(), std::string()))>;
-    CaseKey k;
-    k.path = split(path);
-    k.kind = kind_of<T>();
-    k.doc = doc;
-    k.get = [member](const Case& c, const std::string& name) { return to_value(member(c, name)); };
-    k.set = [member](Case& c, const std::string& name, const CaseValue& value) { from_value(member(c, name), value); };
-    return k;
-}
-
-CaseKey in(Dimension dimension, const char* unit, CaseKey k) {
-    k.dimension = dimension;
-    k.unit = unit;
-    return k;
-}
-
-CaseKey within(Range range, CaseKey k) {
-    k.range = range;
-    return k;
-}
-
-CaseKey one_of(std::vector<std::string> choices, CaseKey k) {
-    k.choices = std::move(choices);
-    return k;
-}
-
-/// A text that must be one of these words.
-CaseKey word(std::vector<std::string> choices, CaseKey k) {
-    k.kind = KeyKind::choice;
-    k.choices = std::move(choices);
-    return k;
-}
-
-CaseKey optional(CaseKey k) {
-    k.optional = true;
-    return k;
-}
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Range above(double lower) {
-    return {lower, infinity, true, true};
-}
-constexpr Range from(double lower) {
-    return {lower, infinity, false, true};
-}
-constexpr Range from_to(double lower, double upper) {
-    return {lower, upper, false, false};
-}
-constexpr Range above_to(double lower, double upper) {
-    return {lower, upper, true, false};
-}
-constexpr Range between(double lower, double upper) {
-    return {lower, upper, true, true};
-}
-
-// A key's value in a case `c`; `name` is the material or contact that «*» stands for.
-#define PELLETLAB_MEMBER(expression)                \
-    [](auto& c, const std::string& name) -> auto& { \
-        (void)c, (void)name;                        \
-        return expression;                          \
-    }
 
 /// Contact parameters of laws that are not the study's.
 template <class Add>
@@ -184,7 +77,7 @@ std::vector<CaseKey> make_keys() {
     std::vector<CaseKey> keys;
     const auto add = [&keys](CaseKey k) { keys.push_back(std::move(k)); };
 
-    add(one_of({"tube", "drum"}, key("rig", PELLETLAB_MEMBER(c.rig), "Apparatus of the run.")));
+    add(one_of({"tube", "drum", "pile", "tester"}, key("rig", PELLETLAB_MEMBER(c.rig), "Apparatus of the run.")));
     add(key("name", PELLETLAB_MEMBER(c.name), "Name of the run in results and pictures."));
     // TOML's whole numbers end at 2^63 − 1; the limit below is the largest double under it, so a seed can always be written back.
     add(within(from_to(0, 9223372036854774784.0), key("seed", PELLETLAB_MEMBER(c.seed), "Seed of all random numbers; the same seed gives the same bits.")));
@@ -213,6 +106,7 @@ std::vector<CaseKey> make_keys() {
 
     add(in(length, "mm", within(above(0), key("tube.diameter", PELLETLAB_MEMBER(c.tube.diameter), "Inner diameter."))));
     add(in(length, "mm", within(from(0), key("tube.height", PELLETLAB_MEMBER(c.tube.height), "Height; 0: high enough for the pellets to be inserted."))));
+    add(key("tube.lying", PELLETLAB_MEMBER(c.tube.lying), "The axis lies level, along y: tube.height is the length between two end plates."));
     add(within(from_to(8, 4096), key("tube.facets", PELLETLAB_MEMBER(c.tube.facets), "Flat facets of the round shell.")));
     add(key("tube.mesh_file", PELLETLAB_MEMBER(c.tube.mesh_file), "Mesh of shell and floor to use instead of the round tube; empty: none."));
     add(key("tube.mesh_unit", PELLETLAB_MEMBER(c.tube.mesh_unit), "Length unit of mesh_file (an STL file does not tell): mm, m, in and so on."));
@@ -232,10 +126,25 @@ std::vector<CaseKey> make_keys() {
     add(key("drum.mesh_unit", PELLETLAB_MEMBER(c.drum.mesh_unit), "Length unit of mesh_file (an STL file does not tell): mm, m, in and so on."));
     add(key("drum.material", PELLETLAB_MEMBER(c.drum.material), "Material of shell and end plates: a table [materials.<name>]."));
 
+    for (CaseKey& k : keys_of_piles_and_testers()) add(std::move(k));
+
+    add(word({"cloud", "sieve", "batches", "funnel"},
+             key("insertion.way", PELLETLAB_MEMBER(c.insertion.way),
+                 "How a tube is filled: all pellets at once as a loose cloud, rain from a sieve, clouds one after the other, or through a funnel.")));
     add(within(above_to(0, 0.5), key("insertion.packing_fraction", PELLETLAB_MEMBER(c.insertion.packing_fraction),
                                      "Packing fraction of the loose cloud of pellets before they fall.")));
     add(in(velocity, "m/s",
            within(from(0), key("insertion.fall_speed", PELLETLAB_MEMBER(c.insertion.fall_speed), "Downward speed of the pellets at release."))));
+    add(within(from_to(1, 1000), key("insertion.batches", PELLETLAB_MEMBER(c.insertion.batches),
+                                     "Clouds of insertion.way = \"batches\"; each comes to rest before the next one falls.")));
+    add(in(frequency, "Hz",
+           within(above(0), key("insertion.sieve_rate", PELLETLAB_MEMBER(c.insertion.sieve_rate), "Pellets that leave the sieve per second."))));
+    add(in(length, "mm",
+           within(from(0), key("insertion.sieve_height", PELLETLAB_MEMBER(c.insertion.sieve_height),
+                               "Height of the sieve above the floor; 0: twice the height that the bed will have, and 50 mm."))));
+    add(within(from_to(0, 10000), key("insertion.taps", PELLETLAB_MEMBER(c.insertion.taps), "Taps of the tube once the bed is at rest.")));
+    add(in(length, "mm", within(above(0), key("insertion.tap_amplitude", PELLETLAB_MEMBER(c.insertion.tap_amplitude), "How far a tap lifts the tube."))));
+    add(in(frequency, "Hz", within(above(0), key("insertion.tap_frequency", PELLETLAB_MEMBER(c.insertion.tap_frequency), "Of the one swing that is a tap."))));
 
     add(in(time, "s", within(above_to(0, 0.1), key("time.step", PELLETLAB_MEMBER(c.time.step), "Time step."))));
     add(in(
@@ -243,8 +152,10 @@ std::vector<CaseKey> make_keys() {
         within(above(0), key("time.settle_limit", PELLETLAB_MEMBER(c.time.settle_limit), "A bed that is not at rest by then gets the status «not at rest»."))));
     add(within(above(0), key("time.rest_kinetic_energy", PELLETLAB_MEMBER(c.time.rest_kinetic_energy),
                              "A bed is at rest when its kinetic energy per pellet is below this · m·g·d of a pellet.")));
-    add(in(time, "s", within(from(0), key("time.spin_up", PELLETLAB_MEMBER(c.time.spin_up), "Rotation before measuring (drum)."))));
-    add(in(time, "s", within(above(0), key("time.measure", PELLETLAB_MEMBER(c.time.measure), "Rotation that is measured (drum)."))));
+    add(within(above_to(0, 1), key("time.rest_contact_change", PELLETLAB_MEMBER(c.time.rest_contact_change),
+                                   "… and its number of touching pairs stays within this share of itself, both for 20 ms.")));
+    add(in(time, "s", within(from(0), key("time.spin_up", PELLETLAB_MEMBER(c.time.spin_up), "Rotation before measuring (drum, tester)."))));
+    add(in(time, "s", within(above(0), key("time.measure", PELLETLAB_MEMBER(c.time.measure), "Rotation that is measured (drum, tester)."))));
 
     add(in(time, "s", within(above(0), key("output.frame_interval", PELLETLAB_MEMBER(c.output.frame_interval), "Time between stored frames."))));
     add(key("output.paraview", PELLETLAB_MEMBER(c.output.paraview), "Write ParaView files."));
@@ -256,13 +167,12 @@ std::vector<CaseKey> make_keys() {
 
     add(in(
         length, "mm",
-        within(above(0), key("measurement.height_grid", PELLETLAB_MEMBER(c.measurement.height_grid), "Cell of the grid over the bed's top surface (tube)."))));
+        within(above(0), key("measurement.height_grid", PELLETLAB_MEMBER(c.measurement.height_grid), "Cell of the grid over the top surface (tube, pile)."))));
     add(in(length, "mm",
-           within(above(0), key("measurement.velocity_grid", PELLETLAB_MEMBER(c.measurement.velocity_grid), "Cell of the velocity map (drum)."))));
+           within(above(0),
+                  key("measurement.velocity_grid", PELLETLAB_MEMBER(c.measurement.velocity_grid), "Cell of the maps over the end view (drum, tester)."))));
     return keys;
 }
-
-#undef PELLETLAB_MEMBER
 
 std::vector<CaseSection> make_sections() {
     return {
@@ -275,8 +185,11 @@ std::vector<CaseSection> make_sections() {
          "Contact parameters of `pellet-pellet`, and of pellets with a wall: `pellet-<wall name>`, else `pellet-<material of the wall>`. "
          "`pellet-pellet` and `pellet-vessel` have the defaults of run 12 in Table 4 of the same study; other rows state restitution and both frictions."},
         {{"physics"}, "Laws of contact and forces on pellets; the defaults are the study's."},
-        {{"tube"}, "Vertical tube: axis z, floor at z = 0."},
+        {{"tube"}, "Vertical tube: axis z, floor at z = 0. Lying: axis y, centre in the origin."},
         {{"drum"}, "Horizontal drum: axis y, centre in the origin."},
+        {{"pile"}, "Pile on a plate: z = 0, poured about the z axis."},
+        {{"funnel"}, "Funnel with a shutter, about the z axis: of a pile with release = \"funnel\" and of a tube with insertion.way = \"funnel\"."},
+        {{"tester"}, "Attrition tester: a drum (axis y, centre in the origin) with one baffle, after ASTM D4058."},
         {{"insertion"}, "How pellets come into the rig."},
         {{"time"}, "Time step and phases of the run."},
         {{"output"}, "What a run writes."},
@@ -310,7 +223,9 @@ std::string path_text(const std::vector<std::string>& path) {
 }
 
 bool is_idle_section(const CaseSection& section, Rig rig) {
-    return !section.path.empty() && section.path[0] == rig_name(rig == Rig::tube ? Rig::drum : Rig::tube);
+    if (section.path.empty()) return false;
+    if (section.path[0] == "funnel") return rig != Rig::pile;  // of a tube only with insertion.way = "funnel": not in a file to start from
+    return section.path[0] != rig_name(rig) && std::any_of(all_rigs.begin(), all_rigs.end(), [&](Rig r) { return section.path[0] == rig_name(r); });
 }
 
 std::vector<std::string> names_in(const Case& c, const CaseSection& section) {
@@ -336,7 +251,17 @@ const ContactParameters* default_contact(const std::string& name) {
 }
 
 const std::string& wall_material(const Case& c) {
-    return c.rig == Rig::drum ? c.drum.material : c.tube.material;
+    switch (c.rig) {
+        case Rig::drum:
+            return c.drum.material;
+        case Rig::pile:
+            return c.pile.material;
+        case Rig::tester:
+            return c.tester.material;
+        case Rig::tube:
+            break;
+    }
+    return c.tube.material;
 }
 
 }  // namespace pelletlab::io::detail
@@ -348,6 +273,8 @@ Case default_case(Rig rig) {
     c.rig = rig;
     c.name = rig_name(rig);
     if (rig == Rig::drum) c.pellet.count = 0;
+    if (rig == Rig::pile) c.pellet.count = 7818;
+    if (rig == Rig::tester) c.pellet.count = 3000;
     for (const char* name : {"pellet", "vessel"}) c.materials[name] = *detail::default_material(name);
     for (const char* name : {"pellet-pellet", "pellet-vessel"}) c.contacts[name] = *detail::default_contact(name);
     return c;

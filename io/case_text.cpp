@@ -51,6 +51,20 @@ std::string wrapped_comment(const std::string& words) {
     return text + line + "\n";
 }
 
+std::string subject_of(Rig rig) {
+    switch (rig) {
+        case Rig::drum:
+            return "a rotating drum";
+        case Rig::pile:
+            return "a pile on a plate";
+        case Rig::tester:
+            return "an attrition tester";
+        case Rig::tube:
+            break;
+    }
+    return "filling a tube";
+}
+
 std::string comment_of(const CaseKey& key) {
     std::string comment = key.doc;
     if (!key.choices.empty()) {
@@ -78,7 +92,7 @@ std::string resolved_case_text(const Case& c) {
 
 std::string new_case_text(Rig rig) {
     const Case c = default_case(rig);
-    std::string text = "# A case for pelletlab: " + std::string(rig == Rig::drum ? "a rotating drum" : "filling a tube") +
+    std::string text = "# A case for pelletlab: " + subject_of(rig) +
                        ".\n# Every value below is the default: delete what you do not change. Values with a dimension carry their unit as text.\n\n";
     for (const CaseSection& section : case_sections()) {
         if (is_idle_section(section, rig)) continue;

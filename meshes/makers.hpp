@@ -26,6 +26,19 @@ TriangleMesh make_disc(double radius, double level, bool facing_up, std::uint32_
 TriangleMesh make_drum_shell(double diameter, double length, std::uint32_t facets);
 TriangleMesh make_drum_end(double diameter, double y, bool facing_positive_y, std::uint32_t facets);
 
+/// Funnel about the z axis, open at both ends, normals inward: a cone from the outlet at z = bottom up to top_diameter, and above it a cylinder up to z = top.
+/// half_angle [rad] between the cone's wall and the vertical. Inner diameters, as make_tube_shell. Throws when `top` lies below the cone's upper rim.
+TriangleMesh make_funnel(double outlet_diameter, double top_diameter, double half_angle, double bottom, double top, std::uint32_t facets);
+/// z at which the cone of that funnel ends, above its outlet [m].
+double funnel_cone_height(double outlet_diameter, double top_diameter, double half_angle);
+
+/// Radial plate inside a drum (axis y, centre in the origin): closed box of that length along y, from the shell's radius `height` inward, its middle plane
+/// through the axis at `angle` [rad]: 0 points down, growing as a turn about +y carries it (down, −x, up, +x).
+TriangleMesh make_baffle(double drum_diameter, double length, double height, double thickness, double angle);
+
+/// The second mesh behind the first, nothing welded.
+TriangleMesh joined(TriangleMesh mesh, const TriangleMesh& other);
+
 /// Axis-aligned closed box, outward normals; geodesic sphere from a subdivided icosahedron (20 · 4^subdivisions faces, vertices on the sphere).
 TriangleMesh make_box(const Vec3& lower, const Vec3& upper);
 TriangleMesh make_sphere(double diameter, std::uint32_t subdivisions);

@@ -1,6 +1,7 @@
-// Walls of the rigs: tube and drum. A wall triangle is one plane facet high, because a contact on a longer triangle is still exact and fewer
+// Walls of the rigs: tube, drum, funnel and baffle. A wall triangle is one plane facet high, because a contact on a longer triangle is still exact and fewer
 // triangles mean fewer edges to decide about.
 #include <cmath>
+#include <numbers>
 
 #include "meshes/detail/require.hpp"
 #include "meshes/detail/rings.hpp"
@@ -52,6 +53,48 @@ TriangleMesh make_drum_shell(double diameter, double length, std::uint32_t facet
 
 TriangleMesh make_drum_end(double diameter, double y, bool facing_positive_y, std::uint32_t facets) {
     return axis_z_to_y(make_disc(0.5 * diameter, y, facing_positive_y, facets));
+}
+
+double funnel_cone_height(double outlet_diameter, double top_diameter, double half_angle) {
+    return 0.5 * (top_diameter - outlet_diameter) / std::tan(half_angle);
+}
+
+TriangleMesh make_funnel(double outlet_diameter, double top_diameter, double half_angle, double bottom, double top, std::uint32_t facets) {
+    detail::require_positive(outlet_diameter, "outlet diameter");
+    detail::require_positive(top_diameter - outlet_diameter, "top diameter minus outlet diameter");
+    detail::require_positive(half_angle, "half angle");
+    detail::require_positive(0.5 * std::numbers::pi - half_angle, "right angle minus half angle");
+    const double shoulder = bottom + funnel_cone_height(outlet_diameter, top_diameter, half_angle);
+    detail::require_positive(top - shoulder, "height of the cylinder above the cone");
+    detail::require_facets(facets);
+    TriangleMesh mesh;
+    const detail::Ring outlet = detail::add_ring(mesh, facets, corner_radius(0.5 * outlet_diameter, facets), bottom);
+    const detail::Ring middle = detail::add_ring(mesh, facets, corner_radius(0.5 * top_diameter, facets), shoulder);
+    const detail::Ring rim = detail::add_ring(mesh, facets, corner_radius(0.5 * top_diameter, facets), top);
+    detail::add_band(mesh, outlet, middle);
+    detail::add_band(mesh, middle, rim);
+    detail::flip_faces(mesh);
+    return mesh;
+}
+
+TriangleMesh make_baffle(double drum_diameter, double length, double height, double thickness, double angle) {
+    detail::require_positive(drum_diameter, "diameter");
+    detail::require_positive(length, "length");
+    detail::require_positive(height, "height");
+    detail::require_positive(thickness, "thickness");
+    const double radius = 0.5 * drum_diameter;
+    detail::require_positive(radius - height, "radius minus height");
+    TriangleMesh mesh = make_box({-0.5 * thickness, -0.5 * length, -radius}, {0.5 * thickness, 0.5 * length, height - radius});
+    const Eigen::AngleAxisd turn(angle, Vec3::UnitY());
+    for (Vec3& vertex : mesh.vertices) vertex = turn * vertex;
+    return mesh;
+}
+
+TriangleMesh joined(TriangleMesh mesh, const TriangleMesh& other) {
+    const auto offset = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (const Triangle& face : other.faces) mesh.faces.push_back({face[0] + offset, face[1] + offset, face[2] + offset});
+    return mesh;
 }
 
 }  // namespace pelletlab::meshes

@@ -17,20 +17,14 @@ namespace pelletlab::packing {
 
 namespace {
 
-constexpr double elbow_room = 1.2;  // sites of the closest lattice a pellet: with less the cloud stays a crystal
-
-/// Where the loose pellets go. A tube of given height is filled up to insertion.packing_fraction or to its rim, and a tube as high as needed is made higher
-/// while the bounding spheres of the pellets (long ones, or a narrow tube) have no room at that packing fraction.
+/// Where the loose pellets go. A tube of given height is filled up to insertion.packing_fraction or to its rim; one as high as needed is made higher.
 InsertionRegion cloud_region(const Case& c, const RigidTemplate& pellet) {
-    const double section = std::numbers::pi * 0.25 * c.tube.diameter * c.tube.diameter;
+    const double radius = 0.5 * c.tube.diameter;
+    if (!(c.tube.height > 0.0)) return upright_region(pellet, c.pellet.count, c.insertion.packing_fraction, radius, 0.0);
+    const double section = std::numbers::pi * radius * radius;
     const double wanted = c.pellet.count * pellet.mass_properties.volume / (c.insertion.packing_fraction * section) + 2.0 * pellet.bounding_radius;
-    InsertionRegion region{InsertionRegion::Axis::z, 0.5 * c.tube.diameter, 0.0, wanted};
-    if (c.tube.height > 0.0) {
-        region.upper = std::min(wanted, c.tube.height);
-        if (cloud_capacity(pellet, region) < c.pellet.count) region.upper = c.tube.height;
-        return region;
-    }
-    while (cloud_capacity(pellet, region) < elbow_room * c.pellet.count) region.upper *= 1.05;
+    InsertionRegion region{InsertionRegion::Axis::z, radius, 0.0, std::min(wanted, c.tube.height)};
+    if (cloud_capacity(pellet, region) < c.pellet.count) region.upper = c.tube.height;
     return region;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <tuple>
 
 #include "core/error.hpp"
@@ -13,8 +14,9 @@ namespace pelletlab::packing {
 
 namespace {
 
-constexpr int sweeps = 300;     // the layers of the lattice are gone after 300 at a bounding-sphere packing of 0.48, not after 100
-constexpr double apart = 1e-6;  // gap between bounding spheres, of their diameter
+constexpr int sweeps = 300;         // the layers of the lattice are gone after 300 at a bounding-sphere packing of 0.48, not after 100
+constexpr double elbow_room = 1.2;  // sites of the closest lattice a pellet: with less the cloud stays a crystal
+constexpr double apart = 1e-6;      // gap between bounding spheres, of their diameter
 
 std::string millimetres(double length) {
     char text[32];
@@ -44,6 +46,14 @@ Vec3 to_world(const Vec3& centre, const InsertionRegion& region, double radius) 
 
 std::uint32_t cloud_capacity(const RigidTemplate& pellet, const InsertionRegion& region) {
     return static_cast<std::uint32_t>(detail::densest_lattice(centre_region(pellet, region), 2.0 * pellet.bounding_radius * (1.0 + apart)).size());
+}
+
+InsertionRegion upright_region(const RigidTemplate& pellet, std::uint32_t count, double packing_fraction, double radius, double lower) {
+    const double section = std::numbers::pi * radius * radius;
+    InsertionRegion region{InsertionRegion::Axis::z, radius, lower, lower};
+    double height = count * pellet.mass_properties.volume / (packing_fraction * section) + 2.0 * pellet.bounding_radius;
+    for (region.upper = lower + height; cloud_capacity(pellet, region) < elbow_room * count; region.upper = lower + height) height *= 1.05;
+    return region;
 }
 
 std::vector<solver::BodyPlacement> loose_cloud(const RigidTemplate& pellet, std::uint32_t count, const InsertionRegion& region, std::uint64_t seed,

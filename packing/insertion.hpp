@@ -26,6 +26,10 @@ struct InsertionRegion {
 std::vector<solver::BodyPlacement> loose_cloud(const RigidTemplate& pellet, std::uint32_t count, const InsertionRegion& region, std::uint64_t seed,
                                                const Vec3& velocity);
 
+/// Upright region of that radius from z = lower up, as high as `count` pellets need at that packing fraction, and higher while the bounding spheres of the
+/// pellets (long ones, or a narrow tube) have no room to be disordered.
+InsertionRegion upright_region(const RigidTemplate& pellet, std::uint32_t count, double packing_fraction, double radius, double lower);
+
 /// How many pellets loose_cloud can place in the region.
 std::uint32_t cloud_capacity(const RigidTemplate& pellet, const InsertionRegion& region);
 

@@ -63,7 +63,7 @@ std::uint64_t steps_in(double time, double step);
 
 enum class SettleStatus { at_rest, not_at_rest };
 
-/// Steps until the kinetic energy per pellet stays below rest_kinetic_energy · m g d for 0.02 s, or the limit.
-SettleStatus settle(Course& course, const solver::Simulation& simulation, const Case& c, double frame_interval);
+/// Steps until the pellets are at rest (packing/rest.hpp), or until time.settle_limit.
+SettleStatus settle(Course& course, const solver::Simulation& simulation, const Case& c, double frame_interval, const std::string& name = "settling");
 
 }  // namespace pelletlab::packing

@@ -17,7 +17,7 @@ struct PictureSettings {
     std::optional<std::string> title;  ///< upper left; nothing: made from the case's name, the number of pellets and the time
     std::optional<ValueRange> range;   ///< what the ends of the colour bar stand for [SI]; nothing: from the data
     std::optional<double> view_top;    ///< tube: [m], height up to which the bed is shown; nothing: from the frame
-    double azimuth = 0.0;              ///< tube: [rad], camera turned about the axis
+    double azimuth = 0.0;              ///< tube, pile: [rad], camera turned about the axis
     double circle_diameter = 0.0;      ///< map: [m], drum drawn round the origin; 0: none
 };
 
@@ -36,6 +36,9 @@ Image picture_of_tube(const TrajectoryHeader& header, const Frame& frame, const 
 /// Drum (axis y) seen along +y through the front plate (not drawn), pellets coloured by speed, with a colour bar.
 Image picture_of_drum(const TrajectoryHeader& header, const Frame& frame, const PictureSettings& settings);
 Image picture_of_drum(const TrajectoryHeader& header, const Frame& frame, const PelletValues& values, const PictureSettings& settings);
+
+/// Pile on the plate z = 0 seen from a little above, without its walls; pellets coloured by height. Nearly all that lie on the plate are in the picture.
+Image picture_of_pile(const TrajectoryHeader& header, const Frame& frame, const PictureSettings& settings);
 
 /// Colour map of a field with axes in mm and a colour bar; arrows where the observables also hold the maps vx and vz on the same grid.
 Image picture_of_map(const Observables& observables, const std::string& map_name, const PictureSettings& settings);

@@ -56,6 +56,8 @@ struct CaseSection {
 };
 
 const std::vector<CaseKey>& case_keys();
+/// Rows of it that stand in a file of their own.
+std::vector<CaseKey> keys_of_piles_and_testers();
 const std::vector<CaseSection>& case_sections();
 
 /// Keys that stand directly in the section, in the order of the table.

@@ -16,6 +16,7 @@ SMALL = ["--set", "pellet.count=6", "--set", "time.settle_limit=0.02 s", "--set"
          "--set", "output.pictures=false", "--set", "output.paraview=false"]
 SMALL_DRUM = ["--set", "pellet.count=6", "--set", "time.settle_limit=0.02 s", "--set", "time.spin_up=0.01 s", "--set", "time.measure=0.02 s",
               "--set", "output.frame_interval=0.005 s", "--set", "output.pictures=false", "--set", "output.paraview=false"]
+SMALL_PILE = [*SMALL, "--set", "pile.discharge_limit=0.03 s"]
 # … and one that goes on for minutes, to be interrupted.
 LONG = ["--set", "pellet.count=400", "--set", "time.settle_limit=60 s", "--set", "time.rest_kinetic_energy=1e-300",
         "--set", "output.frame_interval=0.001 s"]

@@ -21,10 +21,10 @@ class Cases(PelletlabTest):
         file, line = self.edited_case(old, new, rig)
         texts = [f"{file}:{line}", *([says] if isinstance(says, str) else says)]
         self.fails(BAD_INPUT, "case", "check", file, says=texts)
-        self.fails(BAD_INPUT, {"tube": "fill", "drum": "drum"}[rig], file, "-o", "out", says=texts)
+        self.fails(BAD_INPUT, {"tube": "fill"}.get(rig, rig), file, "-o", "out", says=texts)
 
     def test_new_cases_can_be_read_and_their_resolved_text_again(self):
-        for rig in ("tube", "drum"):
+        for rig in ("tube", "drum", "pile", "tester"):
             resolved = self.succeeds("case", "check", self.new_case(rig)).out
             self.write("resolved.toml", resolved)
             self.assertEqual(self.succeeds("case", "check", "resolved.toml").out, resolved)
@@ -104,14 +104,14 @@ class CaseDocuments(PelletlabTest):
     def test_schema_is_json_and_knows_every_key_of_a_new_case(self):
         schema = json.loads(self.succeeds("case", "schema").out)
         self.assertIn("$schema", schema)
-        for rig in ("tube", "drum"):
+        for rig in ("tube", "drum", "pile", "tester"):
             text = self.read(self.new_case(rig))
             for key in re.findall(r"(?m)^#?\s?(\w+) = ", text):
                 self.assertIn(f'"{key}"', json.dumps(schema), key)
 
     def test_reference_knows_every_key_of_a_new_case(self):
         page = self.succeeds("case", "reference").out
-        for rig in ("tube", "drum"):
+        for rig in ("tube", "drum", "pile", "tester"):
             for key in re.findall(r"(?m)^#?\s?(\w+) = ", self.read(self.new_case(rig))):
                 self.assertIn(key, page)
 

@@ -9,7 +9,7 @@ import signal
 import time
 
 import bodies
-from harness import BAD_INPUT, INTERRUPTED, LONG, NUMERICAL, SMALL, SMALL_DRUM, SOURCE, PelletlabTest
+from harness import BAD_INPUT, INTERRUPTED, LONG, NUMERICAL, SMALL, SMALL_DRUM, SMALL_PILE, SOURCE, PelletlabTest
 
 RESULTS = ("run.h5", "observables.json", "stage.json")
 
@@ -44,6 +44,28 @@ class Runs(PelletlabTest):
         text = self.read("out/drum/observables.json")
         strict_json(text)
         self.assertIn("angle", text)
+
+    PILE = ["--set", "pellet.count=40", "--set", "time.step=2e-5 s", "--set", "funnel.top_diameter=30 mm", "--set", "funnel.outlet_diameter=16 mm",
+            "--set", "funnel.outlet_height=30 mm", "--set", "pile.plate_diameter=150 mm", "--set", "time.settle_limit=0.1 s",
+            "--set", "pile.discharge_limit=0.4 s", "--set", "output.paraview=false", "--set", "output.picture_width=200"]
+
+    def test_pile_writes_every_result(self):
+        result = self.succeeds("pile", self.new_case("pile"), *self.PILE, "-o", "out/pile")
+        for name in (*RESULTS, "case.resolved.toml", "pile.png", "top-surface.png"):
+            self.assertTrue(os.path.getsize(self.path("out/pile", name)) > 0, name)
+        values = {one["name"]: one["value"] for one in strict_json(self.read("out/pile/observables.json"))["values"]}
+        self.assertEqual(values["pellets_counted"] + values["pellets_above"] + values["pellets_off_plate"], 40, result)
+        self.assertGreater(values["pile_height_highest"], 2.5, result)  # a pellet lies or stands 3 mm high
+        self.assertLess(values["discharge_time"], 0.4, result)
+        self.succeeds("pile", "pile.toml", *SMALL_PILE, "--set", "pile.release=cylinder", "-o", "out/lifted")
+
+    def test_pile_has_the_same_bits_for_one_and_two_threads(self):
+        file = self.new_case("pile")
+        hashes = {self.state_hash(self.succeeds("--threads", n, "pile", file, *self.PILE, "--set", "output.pictures=false", "-o", f"out-{n}")) for n in ("1", "2")}
+        self.assertEqual(len(hashes), 1)
+
+    def test_a_case_of_another_rig_names_the_verb(self):
+        self.fails(2, "fill", self.new_case("pile"), says=["pile", "pelletlab pile"])
 
     def test_results_carry_version_commit_seed_and_hashes(self):
         self.succeeds("fill", self.new_case(), *SMALL, "-o", "out", "--set", "seed=42")
@@ -92,9 +114,9 @@ class Runs(PelletlabTest):
             with self.subTest(example=name):
                 self.take_clump()
                 shutil.copy(os.path.join(SOURCE, "examples", name), self.path(name))
-                drum = re.search(r'(?m)^rig\s*=\s*"drum"', self.read(name)) is not None
-                self.succeeds("drum" if drum else "fill", name, *(SMALL_DRUM if drum else SMALL), "--set", "pellet.clump_file=pellet.clump.toml",
-                              "-o", "out-" + name)
+                rig = re.search(r'(?m)^rig\s*=\s*"(\w+)"', self.read(name)).group(1)
+                verb, setting = {"tube": ("fill", SMALL), "drum": ("drum", SMALL_DRUM), "pile": ("pile", SMALL_PILE)}[rig]
+                self.succeeds(verb, name, *setting, "--set", "pellet.clump_file=pellet.clump.toml", "-o", "out-" + name)
 
 
 class RefusedRuns(PelletlabTest):

@@ -5,7 +5,7 @@ import re
 from harness import BAD_INPUT, USAGE, PelletlabTest
 
 VERBS = [["shape"], ["shape", "export"], ["shape", "import"], ["shape", "compare"], ["shape", "pareto"], ["shape", "family"],
-         ["fill"], ["drum"], ["demo"],
+         ["fill"], ["drum"], ["pile"], ["demo"],
          ["observe"], ["observe", "tube"], ["observe", "pile"], ["observe", "drum"],
          ["mesh"], ["mesh", "check"], ["mesh", "make"], ["mesh", "assets"],
          ["case"], ["case", "new"], ["case", "check"], ["case", "schema"], ["case", "reference"],
@@ -24,7 +24,7 @@ class Usage(PelletlabTest):
 
     def test_help_lists_every_verb_and_shows_the_chain(self):
         text = self.succeeds("--help").out
-        for verb in ("shape", "fill", "drum", "observe", "demo", "mesh", "case", "diagnose"):
+        for verb in ("shape", "fill", "drum", "pile", "observe", "demo", "mesh", "case", "diagnose"):
             self.assertRegex(text, rf"(?m)^\s+{verb}\b")
         self.assertIn("pelletlab shape", text)
 
@@ -48,7 +48,7 @@ class Usage(PelletlabTest):
         self.fails(USAGE, "case", "new", "tube", "--colour", "red", says="--colour")
 
     def test_missing_argument(self):
-        for verb in ("shape", "fill", "drum"):
+        for verb in ("shape", "fill", "drum", "pile"):
             self.fails(USAGE, verb, says="required")
 
     def test_numbers_out_of_range(self):
@@ -57,7 +57,7 @@ class Usage(PelletlabTest):
         self.fails(USAGE, "shape", "x.stl", "-n", "0", says="spheres")
 
     def test_unknown_rig_of_a_new_case(self):
-        self.fails(USAGE, "case", "new", "silo", says=["tube", "drum"])
+        self.fails(USAGE, "case", "new", "silo", says=["tube", "drum", "pile"])
 
     def test_demo_outside_the_source_folder(self):
         self.fails(USAGE, "demo", "-o", "demo-out", says="--source")

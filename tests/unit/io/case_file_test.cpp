@@ -29,11 +29,17 @@ Case awkward_case(Rig rig, std::uint64_t stream) {
     c.materials["γ-alumina 5.1"] = {positive() * 1e5, positive() * 1e9, random.uniform(-0.9, 0.49)};
     c.materials["perspex"] = {positive(), positive(), 0.1 + 0.2};
     c.contacts.clear();
-    for (const char* name : {"pellet-pellet", "pellet-perspex", "pellet-shell"}) c.contacts[name] = {random.uniform(), positive(), positive()};
-    c.tube = {positive() + 0.01, positive(), 97, "tube.stl", "in", "perspex"};
+    for (const std::string& name : {std::string("pellet-pellet"), std::string("pellet-perspex"), "pellet-" + wall_names(c).front()})
+        c.contacts[name] = {random.uniform(), positive(), positive()};
+    c.tube = {positive() + 0.01, positive(), rig == Rig::tube && stream % 2 == 1, 97, "tube.stl", "in", "perspex"};
     c.drum = {positive() + 0.01, positive(), -positive(), random.uniform(), random.uniform(), 33, false, "drum.stl", "um", "perspex"};
-    c.insertion = {random.uniform() / 2.0, positive()};
-    c.time = {positive() * 1e-4, 1.0 / 3.0, positive(), positive(), 0.5 + positive()};
+    c.pile = {stream % 3 == 0 ? "cylinder" : "funnel", positive(), positive(), positive(), positive(), "c.stl", "mm", "perspex"};
+    c.funnel = {positive() * 0.01, 0.5 + positive(), random.uniform(), 0.0, positive(), 31, "f.stl", "km"};
+    c.tester = {positive() + 0.02, positive(), 0.01, 0.003, random.normal(), positive(), 17, "t.stl", "b.stl", "in", "perspex"};
+    c.insertion = {c.tube.lying ? "cloud" : "batches", random.uniform() / 2.0, positive(), 3, positive(), 0.0, 7, positive(), positive()};
+    if (rig == Rig::tube && stream % 4 == 2)
+        c.insertion.way = "funnel", c.funnel.outlet_diameter = 0.5 * c.tube.diameter, c.funnel.top_diameter = c.tube.diameter;
+    c.time = {positive() * 1e-4, 1.0 / 3.0, positive(), random.uniform(), positive(), 0.5 + positive()};
     c.output = {0.1 + 1.0 / 3.0, false, 3, false, true, 277};
     c.measurement = {0.01 / 3.0, 0.01 / 7.0};
     return c;
@@ -60,15 +66,15 @@ TEST(CaseFile, DefaultsAreThoseOfTheStruct) {
 }
 
 TEST(CaseFile, NewCaseReadsBackToTheDefaultCase) {
-    for (const Rig rig : {Rig::tube, Rig::drum}) {
+    for (const Rig rig : all_rigs) {
         const std::string text = io::new_case_text(rig);
         EXPECT_EQ(parsed(text), io::default_case(rig)) << text;
-        EXPECT_EQ(text.find(rig == Rig::tube ? "[drum]" : "[tube]"), std::string::npos);
+        for (const Rig other : all_rigs) EXPECT_EQ(text.find("[" + rig_name(other) + "]") != std::string::npos, other == rig) << text;
     }
 }
 
 TEST(CaseFile, ResolvedTextReadsBackToTheSameBits) {
-    for (const Rig rig : {Rig::tube, Rig::drum}) {
+    for (const Rig rig : all_rigs) {
         EXPECT_EQ(parsed(io::resolved_case_text(io::default_case(rig))), io::default_case(rig));
         for (std::uint64_t stream = 0; stream < 200; ++stream) {
             const Case c = awkward_case(rig, stream);

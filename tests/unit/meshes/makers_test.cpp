@@ -7,9 +7,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/error.hpp"
 #include "meshes/check.hpp"
 #include "meshes/detail/rings.hpp"
 #include "meshes/detail/weld.hpp"
+#include "meshes/mass_properties.hpp"
 #include "support.hpp"
 
 namespace pelletlab::meshes {
@@ -144,6 +146,41 @@ TEST(Makers, RefuseImpossibleSizes) {
     test::refusal([] { make_drum_shell(80e-3, 0.0, 96); });
     test::refusal([] { make_box({0, 0, 0}, {1, -1, 1}); });
     test::refusal([] { make_sphere(1e-3, 99); });
+}
+
+TEST(WallMakers, FunnelTouchesItsThreeCirclesAndFacesInward) {
+    const double cone = funnel_cone_height(0.03, 0.1, std::numbers::pi / 6.0);
+    EXPECT_NEAR(cone, 0.035 * std::sqrt(3.0), 1e-15);  // 35 mm of radius at 30°
+    const TriangleMesh mesh = make_funnel(0.03, 0.1, std::numbers::pi / 6.0, 0.02, 0.2, 64);
+    const Box box = bounding_box(mesh);
+    EXPECT_DOUBLE_EQ(box.min().z(), 0.02);
+    EXPECT_DOUBLE_EQ(box.max().z(), 0.2);
+    double area = 0.0;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        const Vec3 a = mesh.corner(f, 0), b = mesh.corner(f, 1), c = mesh.corner(f, 2), middle = (a + b + c) / 3.0, normal = (b - a).cross(c - a);
+        area += 0.5 * normal.norm();
+        EXPECT_LT(normal.dot(Vec3(middle.x(), middle.y(), 0.0)), 0.0) << "towards the axis";
+        if (middle.z() > 0.02 + cone) continue;
+        EXPECT_NEAR(std::atan2(normal.z(), -normal.dot(Vec3(middle.x(), middle.y(), 0.0).normalized())), std::numbers::pi / 6.0, 0.01) << "the half angle";
+    }
+    // Frustum π (r₁ + r₂) · slant and cylinder π D h; a polygon circumscribed about n facets is larger by (n/π) tan(π/n): 0.08 % at 64.
+    const double slant = cone / std::cos(std::numbers::pi / 6.0);
+    const double exact = std::numbers::pi * (0.015 + 0.05) * slant + std::numbers::pi * 0.1 * (0.18 - cone);
+    EXPECT_NEAR(area, exact, 0.002 * exact);
+    EXPECT_THROW(make_funnel(0.1, 0.03, 0.5, 0.0, 0.2, 64), Error) << "the outlet is wider than the top";
+    EXPECT_THROW(make_funnel(0.03, 0.1, 0.5, 0.0, 0.01, 64), Error) << "lower than its cone";
+}
+
+TEST(WallMakers, BaffleStandsAtItsAngle) {
+    for (const double angle : {0.0, 0.5, std::numbers::pi}) {
+        const TriangleMesh mesh = make_baffle(0.254, 0.152, 0.051, 0.003, angle);
+        EXPECT_NEAR(mass_properties(mesh, 1000.0).volume, 0.152 * 0.051 * 0.003, 1e-12);
+        // Down at 0, then as a turn about +y carries it: (−sin φ, 0, −cos φ).
+        const Vec3 centre = mass_properties(mesh, 1000.0).centre_of_mass_mesh;
+        const Vec3 expected = (0.127 - 0.0255) * Vec3(-std::sin(angle), 0.0, -std::cos(angle));
+        EXPECT_LT((centre - expected).norm(), 1e-12) << angle;
+    }
+    EXPECT_THROW(make_baffle(0.1, 0.1, 0.06, 0.003, 0.0), Error) << "beyond the axis";
 }
 
 }  // namespace
