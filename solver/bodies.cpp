@@ -90,6 +90,7 @@ void Bodies::resize(std::size_t n) {
     template_index_.resize(padded, 0);
     each_column(*this, [padded](LargeVector<double>& c) { c.resize(padded, 0.0); });
     for (auto& c : reference_) c.resize(padded, 0.0);
+    path_.resize(padded, 0.0);
 }
 
 void Bodies::reorder(const std::vector<std::uint32_t>& order) {
@@ -99,6 +100,7 @@ void Bodies::reorder(const std::vector<std::uint32_t>& order) {
     };
     each_column(*this, move);
     for (auto& c : reference_) move(c);
+    move(path_);
     move(template_index_);
     move(id_);
     for (std::size_t k = 0; k < count_; ++k) place_of_[id_[k]] = static_cast<std::uint32_t>(k);
@@ -120,6 +122,7 @@ BodyArrays Bodies::arrays(const MotionConstants* constants, Kinematic* records) 
         a.reference[k] = reference_[k].data();
     }
     for (std::size_t k = 0; k < 4; ++k) a.turn[k] = turn_[k].data();
+    a.path = path_.data();
     a.template_index = template_index_.data();
     a.constants = constants;
     a.records = records;

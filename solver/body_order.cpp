@@ -80,6 +80,7 @@ void Simulation::State::order_bodies() {
     move(kinematics);
     for (detail::Wall& wall : walls) {
         move(wall.watches);
+        move(wall.wake);
         move(wall.loads);
         move(wall.touching);
     }

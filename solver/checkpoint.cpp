@@ -288,6 +288,7 @@ bool put_in_place(Simulation::State& s, const Saved& saved) {
         wall.motion_start = saved.walls[k].motion_start;
         wall.start_pose = saved.walls[k].start_pose;
         wall.watches.clear();
+        wall.wake.clear();
         detail::move_wall(wall, s.steps, s.definition.time_step);
         s.wall_loads[k] = saved.walls[k].load;
         s.book.wall_work[k] = saved.walls[k].work;
@@ -297,7 +298,9 @@ bool put_in_place(Simulation::State& s, const Saved& saved) {
     fresh.pair_skin = s.pairs.pair_skin, fresh.hold = s.pairs.hold, fresh.spring_rows = s.pairs.spring_rows;
     s.pairs = std::move(fresh);
     s.kinematics.resize(detail::padded_count(s.bodies.size()));
-    for (detail::Wall& wall : s.walls) wall.watches.resize(s.bodies.size()), wall.loads.resize(s.bodies.size()), wall.touching.resize(s.bodies.size());
+    for (detail::Wall& wall : s.walls)
+        wall.watches.resize(s.bodies.size()), wall.wake.resize(s.bodies.size(), detail::always_awake), wall.loads.resize(s.bodies.size()),
+            wall.touching.resize(s.bodies.size());
     s.order_bodies();
     s.fit_to_body_count();
     s.pairs.ordered_spread = s.pairs.spread;

@@ -173,6 +173,7 @@ void Simulation::State::fit_to_body_count() {
     kinematics.resize(detail::padded_count(n));
     for (detail::Wall& wall : walls) {
         wall.watches.resize(n);
+        wall.wake.resize(n, detail::always_awake);
         wall.loads.resize(n);
         wall.touching.resize(n, 0);
         wall.books.assign((n + detail::body_grain - 1) / detail::body_grain, detail::LoadRow{});
@@ -258,6 +259,7 @@ void Simulation::set_wall_motion(std::size_t index, const WallMotion& motion) {
     wall.motion_start = s.steps;
     wall.start_pose = wall.pose;
     detail::move_wall(wall, s.steps, s.definition.time_step);
+    std::fill(wall.wake.begin(), wall.wake.end(), detail::always_awake);
 }
 
 double Simulation::time() const {

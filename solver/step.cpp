@@ -107,7 +107,14 @@ double Simulation::State::kick_and_drift_bodies() {
 }
 
 void Simulation::State::move_walls() {
-    for (detail::Wall& wall : walls) detail::move_wall(wall, steps, definition.time_step);
+    for (detail::Wall& wall : walls) {
+        const Vec3 before = wall.pose.position;
+        const double angle = wall.place.angle;
+        detail::move_wall(wall, steps, definition.time_step);
+        const double shift = (wall.pose.position - before).norm();
+        const double furthest = (before - domain.min()).cwiseAbs().cwiseMax((before - domain.max()).cwiseAbs()).norm() + shift;  // that a body can be
+        wall.path += 1.000001 * (shift + std::abs(wall.place.angle - angle) * furthest);
+    }
 }
 
 void Simulation::State::find_neighbours_if_needed(double furthest2) {

@@ -5,6 +5,7 @@
 
 #include "solver/detail/aligned_scratch.hpp"
 #include "solver/detail/motion.hpp"
+#include "solver/detail/wall_search.hpp"
 
 namespace pelletlab::solver::detail {
 
@@ -29,104 +30,6 @@ struct Scratch {
     std::vector<std::uint32_t> faces;
     std::vector<std::uint8_t> used;
 };
-
-Mat3 rotation_of(const RelativePose& pose) {
-    const Matrix3 m = matrix_of(pose.q[0], pose.q[1], pose.q[2], pose.q[3]);
-    Mat3 r;
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k) r(i, k) = m.m[i][k];
-    return r;
-}
-
-Vec3 vec(const double a[3]) {
-    return {a[0], a[1], a[2]};
-}
-
-Quat quat(const double a[4]) {
-    return {a[0], a[1], a[2], a[3]};
-}
-
-/// Looks up the faces near the bounding sphere. Looks further than is needed now: a body far from the wall is then left alone for longer.
-void watch_anew(const Wall& wall, WallWatch& watch, const RelativePose& pose, double bounding_radius, double skin, std::vector<std::uint32_t>& faces) {
-    const Vec3 centre = vec(pose.p);
-    for (int k = 0; k < 3; ++k) watch.place[k] = pose.p[k];
-    if (wall.is_exact()) {
-        const double gap = distance_to(wall.exact, centre) - bounding_radius;
-        watch.allowance = 0.999999 * (gap > skin ? gap : skin);
-        if (gap > skin) {
-            watch.near.reset();
-        } else {
-            if (!watch.near) watch.near = std::make_unique<NearWall>();
-            watch.near->allowance = -1.0;
-        }
-        return;
-    }
-    wall.query.faces_near(wall.mesh, centre, bounding_radius + 4.0 * skin, faces);
-    double nearest = bounding_radius + 4.0 * skin;
-    const auto too_far = [&](std::uint32_t f) {
-        const double distance = std::sqrt(closest_point(wall.mesh, f, centre).distance2);
-        nearest = std::min(nearest, distance);
-        return distance > bounding_radius + skin;
-    };
-    faces.erase(std::remove_if(faces.begin(), faces.end(), too_far), faces.end());
-    watch.allowance = 0.999999 * (faces.empty() ? nearest - bounding_radius : skin);
-    if (faces.empty()) {
-        watch.near.reset();
-        return;
-    }
-    if (!watch.near) watch.near = std::make_unique<NearWall>();
-    watch.near->faces = faces;
-    watch.near->allowance = -1.0;
-}
-
-/// Finds the sphere–face candidates anew.
-void refresh(const Wall& wall, NearWall& near, const RelativePose& pose, const BodyTemplate& t, double usual_skin, std::uint32_t step) {
-    const std::uint32_t lasted = step - near.refreshed;
-    if (near.skin > 0.0) {
-        if (lasted < 12) near.skin = std::min(2.0 * near.skin, 4.0 * usual_skin);
-        if (lasted > 100) near.skin = std::max(0.5 * near.skin, 0.05 * usual_skin);
-    } else {
-        near.skin = usual_skin;
-    }
-    near.refreshed = step;
-    const Mat3 r = rotation_of(pose);
-    const Vec3 p = vec(pose.p);
-    near.candidates.clear();
-    double nearest_other = std::max({8.0 * near.skin, usual_skin, 1.6 * wall.law.reach});
-    for (std::size_t a = 0; a < t.balls.size(); ++a) {
-        const auto& ball = t.balls[a];
-        const Vec3 c = r * Vec3(ball.x, ball.y, ball.z) + p;
-        if (wall.is_exact()) {
-            const double gap = distance_to(wall.exact, c) - ball.r;
-            if (gap < std::max(near.skin, 1.01 * wall.law.reach)) {
-                near.candidates.push_back({static_cast<std::uint32_t>(a), 0});
-            } else {
-                nearest_other = std::min(nearest_other, gap);
-            }
-            continue;
-        }
-        for (const std::uint32_t f : near.faces) {
-            // The plane of the face bounds the distance from below, cheaply.
-            const double height = std::abs(wall.mesh.normals[f].dot(c - wall.mesh.corner(f, 0)));
-            if (height - ball.r >= nearest_other) continue;
-            const double gap = std::sqrt(closest_point(wall.mesh, f, c).distance2) - ball.r;
-            if (gap < std::max(near.skin, 1.01 * wall.law.reach)) {
-                near.candidates.push_back({static_cast<std::uint32_t>(a), f});
-            } else {
-                nearest_other = std::min(nearest_other, gap);
-            }
-        }
-    }
-    near.reference = pose;
-    near.allowance = nearest_other * 0.999999;
-}
-
-bool stale(const NearWall& near, const RelativePose& pose, double rho) {
-    double shift = 0.0, turn = 0.0;
-    for (int k = 0; k < 3; ++k) shift += (pose.p[k] - near.reference.p[k]) * (pose.p[k] - near.reference.p[k]);
-    for (int k = 0; k < 4; ++k) turn += (pose.q[k] - near.reference.q[k]) * (pose.q[k] - near.reference.q[k]);
-    return !(std::sqrt(shift) + 2.0 * rho * std::sqrt(turn) <= near.allowance);
-}
 
 /// a turned by the smallest rotation that takes unit vector `from` to unit vector `to`.
 Vec3 turned(const Vec3& a, const Vec3& from, const Vec3& to) {
@@ -254,17 +157,6 @@ PairSlot slot_of(const Mat3& to_wall, const Kinematic& wall, const Kinematic& bo
     return slot;
 }
 
-/// True when the body has moved so far in the frame of the wall that the faces near it must be looked up again.
-bool moved_away(const WallWatch& watch, const Matrix3& frame, const Kinematic& wall, const Kinematic& body) {
-    const double d[3] = {body.place[0] - wall.place[0], body.place[1] - wall.place[1], body.place[2] - wall.place[2]};
-    double moved = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        const double shift = frame.m[0][k] * d[0] + frame.m[1][k] * d[1] + frame.m[2][k] * d[2] - watch.place[k];
-        moved += shift * shift;
-    }
-    return !(watch.allowance >= 0.0 && moved <= watch.allowance * watch.allowance);
-}
-
 /// The mesh that an exact wall carries along: the one it was given, or one triangle.
 WallMesh stand_in_for(const WallDefinition& d) {
     check_surface(d.exact, d.name);
@@ -322,18 +214,27 @@ void wall_contact_forces(Wall& wall, std::size_t block, std::size_t begin, std::
     const double* q = wall.record.turn();
     const Matrix3 frame = matrix_of(q[0], q[1], q[2], q[3]);
     const Mat3 to_world = quat(q).toRotationMatrix(), to_wall = to_world.transpose();
+    std::fill(wall.touching.begin() + static_cast<std::ptrdiff_t>(begin), wall.touching.begin() + static_cast<std::ptrdiff_t>(end), std::uint8_t{0});
     for (std::size_t i = begin; i < end; ++i) {
-        wall.touching[i] = 0;
+        const double path = bodies.path(i) + wall.path;
+        if (path <= wall.wake[i]) continue;
         WallWatch& watch = wall.watches[i];
         const BodyTemplate& t = templates[bodies.template_of(i)];
-        const bool moved = moved_away(watch, frame, wall.record, kinematics[i]);
-        if (!moved && !watch.near) continue;
+        const double left = way_left(watch, frame, wall.record, kinematics[i]);
+        const bool moved = !(left >= 0.0);
+        if (!moved && !watch.near) {
+            wall.wake[i] = path + 0.999 * left;
+            continue;
+        }
         const RelativePose pose = relative_pose(wall.record, kinematics[i]);
-        if (moved) watch_anew(wall, watch, pose, t.bounding_radius, skins.faces, s.faces);
+        if (moved) {
+            watch_anew(wall, watch, pose, t.bounding_radius, skins.faces, s.faces);
+            wall.wake[i] = watch.near ? always_awake : path + 0.999 * watch.allowance;
+        }
         if (!watch.near) continue;
         NearWall& near = *watch.near;
         const bool too_generous = !near.candidates.empty() && clock.index - near.refreshed > 256 && near.skin > 0.1 * skins.candidates;
-        if (too_generous || stale(near, pose, t.largest_offset)) refresh(wall, near, pose, t, skins.candidates, clock.index);
+        if (too_generous || is_stale(near, pose, t.largest_offset)) find_candidates(wall, near, pose, t, skins.candidates, clock.index);
         const auto first = static_cast<std::uint32_t>(s.storage.batch.size);
         if (near.candidates.empty() || !collect(wall, near, pose, t, s)) {
             near.history.clear();

@@ -65,6 +65,9 @@ public:
     /// Remembers the present positions: neighbour lists hold while no body is too far from there.
     void mark_reference();
 
+    /// How far body i has gone in all [m].
+    double path(std::size_t i) const { return path_[i]; }
+
     /// What kernels work on; `constants` per template, `records` padded like the bodies.
     BodyArrays arrays(const MotionConstants* constants, Kinematic* records);
 
@@ -80,6 +83,7 @@ private:
     std::vector<std::uint32_t> template_index_, id_, place_of_;
     Columns<3> position_, velocity_, momentum_, force_, torque_, reference_;
     Columns<4> turn_;
+    LargeVector<double> path_;
 
     static Vec3 get(const Columns<3>& c, std::size_t i) { return {c[0][i], c[1][i], c[2][i]}; }
     static void set(Columns<3>& c, std::size_t i, const Vec3& a) { c[0][i] = a.x(), c[1][i] = a.y(), c[2][i] = a.z(); }

@@ -193,6 +193,7 @@ struct BodyArrays {
     std::size_t count;  ///< without the padding
     double *position[3], *turn[4], *velocity[3], *momentum[3], *force[3], *torque[3];
     const double* reference[3];  ///< positions at the last neighbour search
+    double* path;                ///< how far they have gone in all [m]
     const std::uint32_t* template_index;
     const MotionConstants* constants;
     Kinematic* records;

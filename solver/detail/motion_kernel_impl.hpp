@@ -97,6 +97,7 @@ void drift(const BodyArrays& b, std::size_t begin, std::size_t end, const DriftS
         store(b.momentum, l);
         const Triple<V> p = load(b.position) + v * full;
         store(b.position, p);
+        L::store(b.path + k, L::load(b.path + k) + L::square_root(dot(v, v)) * full);
 
         Turn<V> q{L::load(b.turn[0] + k), L::load(b.turn[1] + k), L::load(b.turn[2] + k), L::load(b.turn[3] + k)};
         const bool asymmetric = L::bits(L::greater(c.second_excess * c.second_excess, zero)) != 0;

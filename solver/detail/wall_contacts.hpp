@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,6 +47,8 @@ struct WallWatch {
     std::unique_ptr<NearWall> near;  ///< only where faces are near
 };
 
+inline constexpr double always_awake = -std::numeric_limits<double>::infinity();  ///< of Wall::wake
+
 struct Wall {
     Wall(const WallDefinition& definition, const LawRow& row, ContactKernel kernel, std::size_t spring_rows);
 
@@ -63,7 +66,11 @@ struct Wall {
     WallPlace place;                 ///< what the motion has come to
     std::uint64_t motion_start = 0;  ///< step at which `motion` began
     Pose start_pose, pose;
-    Kinematic record;                ///< pose and velocity as contacts see them
+    Kinematic record;  ///< pose and velocity as contacts see them
+    /// How far the wall may have gone in all [m], anywhere in the domain: bodies that have gone far themselves and bodies that it has passed must look again.
+    double path = 0.0;
+    /// Per body: one that is far from the wall needs no look while its own path (Bodies::path) and the wall's add up to no more than this [m].
+    LargeVector<double> wake;
     LargeVector<WallWatch> watches;  ///< one a body
     LargeVector<LoadRow> loads;      ///< on each body, world, about its centre of mass; valid where touching
     std::vector<std::uint8_t> touching;
