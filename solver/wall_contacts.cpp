@@ -22,6 +22,7 @@ struct Active {
 struct Scratch {
     BatchStorage storage;
     std::vector<PairSlot> slots;
+    std::vector<std::uint32_t> awake;  ///< bodies that must be looked at
     std::vector<Active> active;
     std::vector<WallHistory> fresh;  ///< of each contact
     std::vector<Spring> springs;     ///< of each contact
@@ -157,6 +158,28 @@ PairSlot slot_of(const Mat3& to_wall, const Kinematic& wall, const Kinematic& bo
     return slot;
 }
 
+/// What the next bodies need lies in many places, each found through the one before: a step of the way for each of the next bodies.
+void fetch_ahead(const Wall& wall, const std::vector<std::uint32_t>& awake, std::size_t at, const LargeVector<Kinematic>& kinematics) {
+    if (at + 6 < awake.size()) __builtin_prefetch(&wall.watches[awake[at + 6]]);
+    if (at + 4 < awake.size()) {
+        const std::uint32_t i = awake[at + 4];
+        __builtin_prefetch(kinematics[i].place);
+        __builtin_prefetch(kinematics[i].motion);
+        if (const NearWall* near = wall.watches[i].near.get(); near) {
+            const char* bytes = reinterpret_cast<const char*>(near);
+            for (std::size_t offset = 0; offset < sizeof(NearWall); offset += 64) __builtin_prefetch(bytes + offset);
+        }
+    }
+    if (at + 2 < awake.size())
+        if (const NearWall* near = wall.watches[awake[at + 2]].near.get(); near) {
+            if (!near->candidates.empty()) __builtin_prefetch(near->candidates.data());
+            for (const WallHistory& history : near->history) {
+                __builtin_prefetch(&history);
+                __builtin_prefetch(&history.last_overlap);
+            }
+        }
+}
+
 /// The mesh that an exact wall carries along: the one it was given, or one triangle.
 WallMesh stand_in_for(const WallDefinition& d) {
     check_surface(d.exact, d.name);
@@ -215,9 +238,13 @@ void wall_contact_forces(Wall& wall, std::size_t block, std::size_t begin, std::
     const Matrix3 frame = matrix_of(q[0], q[1], q[2], q[3]);
     const Mat3 to_world = quat(q).toRotationMatrix(), to_wall = to_world.transpose();
     std::fill(wall.touching.begin() + static_cast<std::ptrdiff_t>(begin), wall.touching.begin() + static_cast<std::ptrdiff_t>(end), std::uint8_t{0});
-    for (std::size_t i = begin; i < end; ++i) {
+    s.awake.clear();
+    for (std::size_t i = begin; i < end; ++i)
+        if (!(bodies.path(i) + wall.path <= wall.wake[i])) s.awake.push_back(static_cast<std::uint32_t>(i));
+    for (std::size_t a = 0; a < s.awake.size(); ++a) {
+        fetch_ahead(wall, s.awake, a, kinematics);
+        const std::size_t i = s.awake[a];
         const double path = bodies.path(i) + wall.path;
-        if (path <= wall.wake[i]) continue;
         WallWatch& watch = wall.watches[i];
         const BodyTemplate& t = templates[bodies.template_of(i)];
         const double left = way_left(watch, frame, wall.record, kinematics[i]);
