@@ -12,7 +12,7 @@ namespace pelletlab::solver::detail {
 
 namespace {
 
-constexpr std::uint32_t pairs_per_block = 96;  ///< about; a block ends with the row of a body
+constexpr std::uint32_t pairs_per_block = 192;  ///< about; a block ends with the row of a body
 constexpr Spring no_spring{{0.0, 0.0, 0.0, 0.0}};
 constexpr std::size_t most_candidates = 65000;  ///< a record counts them in 16 bits
 

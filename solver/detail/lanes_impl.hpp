@@ -46,6 +46,12 @@ struct ScalarLanes {
     PELLETLAB_LANES static void store_chosen(double* p, unsigned, Real a) { *p = a; }
 };
 
+/// to += from, eight columns.
+template <class L>
+PELLETLAB_LANES inline void add_row(double* to, const double* from) {
+    for (std::size_t k = 0; k < 8; k += L::width) L::store(to + k, L::load(to + k) + L::load(from + k));
+}
+
 template <class V>
 struct Triple {
     V x, y, z;

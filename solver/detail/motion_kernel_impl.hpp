@@ -142,6 +142,16 @@ void drift(const BodyArrays& b, std::size_t begin, std::size_t end, const DriftS
         if (lanes[lane] > result.furthest2) result.furthest2 = lanes[lane];
 }
 
+/// The rows that bodies [k, k + count) collect from other pairs lie all over the list: on their way before they are summed. Without branches: rows without a
+/// load stand for the first one.
+inline void fetch_incoming(const BodyArrays& b, const GatherView& g, std::size_t k, std::size_t count) {
+    const std::size_t first = k < b.count ? k : b.count, end = k + count < b.count ? k + count : b.count;
+    for (std::uint32_t n = g.incoming_first[first]; n < g.incoming_first[end]; ++n) {
+        const std::uint32_t pair = g.incoming[n];
+        __builtin_prefetch(g.loads_j + pair * std::size_t{g.touching[pair]});
+    }
+}
+
 /// Sums gravity, pairs and walls for bodies [begin, end) and gives the second half kick (kick = Δt/2; 0 to look only).
 template <class L>
 void gather(const BodyArrays& b, const GatherView& g, std::size_t begin, std::size_t end, double kick) {
@@ -149,7 +159,9 @@ void gather(const BodyArrays& b, const GatherView& g, std::size_t begin, std::si
     alignas(64) double sums[L::width][8];
     const double* rows[L::width];
     for (std::size_t lane = 0; lane < L::width; ++lane) rows[lane] = sums[lane];
+    const bool large = b.count > 8192;  // the loads do not stay in the cache
     for (std::size_t k = begin; k < end; k += L::width) {
+        if (large) fetch_incoming(b, g, k + 3 * widest, L::width);
         for (std::size_t lane = 0; lane < L::width; ++lane) {
             double sum[8] = {0, 0, 0, 0, 0, 0, 0, 0};
             const std::size_t i = k + lane;
@@ -160,11 +172,11 @@ void gather(const BodyArrays& b, const GatherView& g, std::size_t begin, std::si
                 for (std::uint32_t n = g.incoming_first[i]; n < g.incoming_first[i + 1]; ++n) {
                     const std::uint32_t pair = g.incoming[n];
                     if (!g.touching[pair]) continue;
-                    for (int c = 0; c < 8; ++c) sum[c] += g.loads_j[pair].row[c];
+                    add_row<L>(sum, g.loads_j[pair].row);
                 }
                 for (std::size_t w = 0; w < g.wall_count; ++w) {
                     if (!g.wall_touching[w][i]) continue;
-                    for (int c = 0; c < 8; ++c) sum[c] += g.wall_loads[w][i].row[c];
+                    add_row<L>(sum, g.wall_loads[w][i].row);
                 }
             }
             for (int c = 0; c < 8; ++c) sums[lane][c] = sum[c];

@@ -209,7 +209,7 @@ inline void write_loads(const PairBlockView& block, PairScratch& s, const Contac
         const std::uint32_t i = block.records[s.active[a]].i;
         double* own = block.own_loads[i].row;
         if (block.own_touching[i]) {
-            for (int k = 0; k < 8; ++k) own[k] += s.loads_i[a].row[k];
+            add_row<L>(own, s.loads_i[a].row);
         } else {
             for (int k = 0; k < 8; ++k) own[k] = s.loads_i[a].row[k];
             block.own_touching[i] = 1;
