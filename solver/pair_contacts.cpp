@@ -27,13 +27,17 @@ void pair_contact_forces(PairList& list, std::size_t block_index, const LargeVec
                        list.own_touching.data()};
     kernels.find_poses(view, scratch.scratch);
     std::size_t candidates = 0;
+    std::uint32_t listed = 0;
     for (std::size_t k = 0; k < count; ++k) {
         PairRecord& record = list.records[begin + k];
         if (scratch.scratch.stale[k] || too_generous(record, list.pair_skin, clock.index))
             refresh_candidates(list, block, record, templates[record.template_i], templates[record.template_j],
                                relative_pose(kinematics[record.i], kinematics[record.j]), kernels, clock.index);
         candidates += record.count;
+        scratch.scratch.listed[listed] = static_cast<std::uint32_t>(k);  // without a branch: half of the pairs have candidates
+        listed += record.count > 0 ? 1u : 0u;
     }
+    scratch.scratch.listed_count = listed;
     view.candidates = block.candidates.data();
     view.springs = block.springs.data();
     storage.batch.size = 0;

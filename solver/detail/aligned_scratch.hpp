@@ -63,7 +63,7 @@ public:
         capacity_ = pairs;
         const std::size_t stride = pairs + widest + 1;
         poses_.resize(stride);
-        indices_.resize(2 * stride);
+        indices_.resize(3 * stride);
         stale_.resize(stride);
         slots_.resize(stride);
         rows_.resize(2 * stride);
@@ -71,6 +71,7 @@ public:
         scratch.stale = stale_.data();
         scratch.active = indices_.data();
         scratch.first_contact = indices_.data() + stride;
+        scratch.listed = indices_.data() + 2 * stride;
         scratch.slots = slots_.data();
         scratch.sums = rows_.data();
         scratch.loads_i = rows_.data() + stride;

@@ -157,8 +157,9 @@ struct alignas(64) PairPose {
 struct PairScratch {
     PairPose* poses;
     std::uint8_t* stale;
-    std::uint32_t active_count;
-    std::uint32_t* active;         ///< touching pairs, counted from the block's first
+    std::uint32_t listed_count, active_count;
+    std::uint32_t* listed;         ///< pairs with candidates, counted from the block's first
+    std::uint32_t* active;         ///< touching pairs, counted likewise; room for all pairs
     std::uint32_t* first_contact;  ///< of each touching pair; one more at the end
     PairSlot* slots;
     LoadRow *sums, *loads_i;

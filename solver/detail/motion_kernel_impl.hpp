@@ -163,23 +163,28 @@ void gather(const BodyArrays& b, const GatherView& g, std::size_t begin, std::si
     for (std::size_t k = begin; k < end; k += L::width) {
         if (large) fetch_incoming(b, g, k + 3 * widest, L::width);
         for (std::size_t lane = 0; lane < L::width; ++lane) {
-            double sum[8] = {0, 0, 0, 0, 0, 0, 0, 0};
+            V sum[8 / L::width];
+            for (V& part : sum) part = L::all(0.0);
             const std::size_t i = k + lane;
             if (i < b.count) {
                 // Always in this order: pairs in which the body comes first, pairs in which it comes second, walls.
                 if (g.own_touching[i])
-                    for (int c = 0; c < 8; ++c) sum[c] = g.own_loads[i].row[c];
+                    for (std::size_t c = 0; c < 8; c += L::width) sum[c / L::width] = L::load(g.own_loads[i].row + c);
                 for (std::uint32_t n = g.incoming_first[i]; n < g.incoming_first[i + 1]; ++n) {
+                    // Nobody can foretell which of the pairs touch, so there is no branch: others read the first row, which is at hand, and add nothing.
                     const std::uint32_t pair = g.incoming[n];
-                    if (!g.touching[pair]) continue;
-                    add_row<L>(sum, g.loads_j[pair].row);
+                    const std::size_t touches = g.touching[pair];
+                    const double* row = g.loads_j[pair * touches].row;
+                    const auto counts = L::greater(L::all(static_cast<double>(touches)), L::all(0.0));
+                    for (std::size_t c = 0; c < 8; c += L::width)
+                        sum[c / L::width] = L::choose(counts, sum[c / L::width] + L::load(row + c), sum[c / L::width]);
                 }
                 for (std::size_t w = 0; w < g.wall_count; ++w) {
                     if (!g.wall_touching[w][i]) continue;
-                    add_row<L>(sum, g.wall_loads[w][i].row);
+                    for (std::size_t c = 0; c < 8; c += L::width) sum[c / L::width] = sum[c / L::width] + L::load(g.wall_loads[w][i].row + c);
                 }
             }
-            for (int c = 0; c < 8; ++c) sums[lane][c] = sum[c];
+            for (std::size_t c = 0; c < 8; c += L::width) L::store(sums[lane] + c, sum[c / L::width]);
         }
         V s[8];
         L::load_rows(rows, s);

@@ -35,6 +35,7 @@ void find_poses(const PairBlockView& block, PairScratch& s) {
         const float* references[L::width];
         for (std::size_t lane = 0; lane < L::width; ++lane) {
             const PairRecord& r = block.records[k + lane < block.count ? k + lane : block.count - 1];
+            __builtin_prefetch(reinterpret_cast<const char*>(block.records) + (k + lane + 6 * L::width) * sizeof(PairRecord));  // also of the next block
             // Bodies of later pairs, and the lists of this one, are on their way while the poses are found.
             const PairRecord& later = block.records[k + lane + 2 * L::width < block.count ? k + lane + 2 * L::width : block.count - 1];
             __builtin_prefetch(block.kinematics[later.j].place);
@@ -82,6 +83,9 @@ inline void note_changes(const PairBlockView& block, std::size_t first, unsigned
     }
 }
 
+/// For each set of four bits the places of those that are set, a byte each, the lowest first.
+constexpr std::uint32_t set_places[16] = {0, 0, 1, 0x0100, 2, 0x0200, 0x0201, 0x020100, 3, 0x0300, 0x0301, 0x030100, 0x0302, 0x030200, 0x030201, 0x03020100};
+
 /// Puts the touching spheres of pair k into the batch. Sticky: those that touched before count as touching until they are `hold` apart.
 template <class S, bool sticky>
 inline void collect_contacts(const PairBlockView& block, const PairScratch& s, std::size_t k, ContactBatch& b, std::uint32_t slot, bool keep_history,
@@ -120,17 +124,18 @@ inline void collect_contacts(const PairBlockView& block, const PairScratch& s, s
         const std::size_t lanes = end - c < S::width ? end - c : S::width;
         const unsigned touching = S::bits(S::greater(reach * reach, dot(d, d))) & ((1u << lanes) - 1u);
         if (touched != touching) note_changes(block, c, touched, touching, lanes, keep_history);
-        if (touching == 0) continue;
         const std::size_t n = b.size;
         S::store_chosen(b.dx + n, touching, d.x), S::store_chosen(b.dy + n, touching, d.y), S::store_chosen(b.dz + n, touching, d.z);
         S::store_chosen(b.ax + n, touching, centre.x), S::store_chosen(b.ay + n, touching, centre.y), S::store_chosen(b.az + n, touching, centre.z);
         S::store_chosen(b.ra + n, touching, ball_i[3]), S::store_chosen(b.rb + n, touching, ball_j[3]);
-        std::size_t m = n;
-        for (unsigned rest = touching; rest != 0; rest &= rest - 1, ++m) {
-            b.slot[m] = slot;
-            b.spring[m] = static_cast<std::uint32_t>(c) + static_cast<std::uint32_t>(__builtin_ctz(rest));
+        static_assert(S::width <= 4, "set_places is for four lanes");
+        // Without branches, as how many touch is hard to foretell: what is written too much is written over.
+        const std::uint32_t places = set_places[touching];
+        for (std::size_t m = 0; m < S::width; ++m) {
+            b.slot[n + m] = slot;
+            b.spring[n + m] = static_cast<std::uint32_t>(c) + ((places >> (8 * m)) & 0xffu);
         }
-        b.size = m;
+        b.size = n + static_cast<std::size_t>(__builtin_popcount(touching));
     }
 }
 
@@ -241,16 +246,17 @@ void pair_forces(ContactKernel contact, const LawRow& law, const PairBlockView& 
     for (std::size_t i = block.body_begin; i < block.body_end; ++i) block.own_touching[i] = 0;
     if (law.booked)
         for (double& column : block.book->row) column = 0.0;
-    for (std::size_t k = 0; k < block.count; ++k) {
-        block.touching[k] = 0;
-        if (block.records[k].count == 0) continue;
+    for (std::size_t k = 0; k < block.count; ++k) block.touching[k] = 0;
+    for (std::size_t n = 0; n < s.listed_count; ++n) {
+        const std::uint32_t k = s.listed[n];
         const std::size_t before = b.size;
         collect_contacts<S, sticky>(block, s, k, b, s.active_count, keep_history, law.reach);
-        if (b.size == before) continue;
-        block.touching[k] = 1;
+        const std::uint32_t touches = b.size > before ? 1u : 0u;
+        block.touching[k] = static_cast<std::uint8_t>(touches);
         __builtin_prefetch(block.loads_j + k, 1);
-        s.active[s.active_count] = static_cast<std::uint32_t>(k);
-        s.first_contact[++s.active_count] = static_cast<std::uint32_t>(b.size);
+        s.active[s.active_count] = k;
+        s.active_count += touches;
+        s.first_contact[s.active_count] = static_cast<std::uint32_t>(b.size);
     }
     if (b.size == 0) return;
     find_slots<L>(block, s, block.spring_rows > 1);
