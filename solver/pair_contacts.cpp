@@ -28,14 +28,17 @@ void pair_contact_forces(PairList& list, std::size_t block_index, const LargeVec
     kernels.find_poses(view, scratch.scratch);
     std::size_t candidates = 0;
     std::uint32_t listed = 0;
+    const bool seek_generous = (clock.index + block_index) % 32 == 0;  // not every step: it means reading all records once more
     for (std::size_t k = 0; k < count; ++k) {
-        PairRecord& record = list.records[begin + k];
-        if (scratch.scratch.stale[k] || too_generous(record, list.pair_skin, clock.index))
+        if (scratch.scratch.stale[k] || (seek_generous && too_generous(list.records[begin + k], list.pair_skin, clock.index))) {
+            PairRecord& record = list.records[begin + k];
             refresh_candidates(list, block, record, templates[record.template_i], templates[record.template_j],
                                relative_pose(kinematics[record.i], kinematics[record.j]), kernels, clock.index);
-        candidates += record.count;
+            scratch.scratch.counts[k] = record.count;
+        }
+        candidates += scratch.scratch.counts[k];
         scratch.scratch.listed[listed] = static_cast<std::uint32_t>(k);  // without a branch: half of the pairs have candidates
-        listed += record.count > 0 ? 1u : 0u;
+        listed += scratch.scratch.counts[k] > 0 ? 1u : 0u;
     }
     scratch.scratch.listed_count = listed;
     view.candidates = block.candidates.data();

@@ -65,10 +65,12 @@ public:
         poses_.resize(stride);
         indices_.resize(3 * stride);
         stale_.resize(stride);
+        counts_.resize(stride);
         slots_.resize(stride);
         rows_.resize(2 * stride);
         scratch.poses = poses_.data();
         scratch.stale = stale_.data();
+        scratch.counts = counts_.data();
         scratch.active = indices_.data();
         scratch.first_contact = indices_.data() + stride;
         scratch.listed = indices_.data() + 2 * stride;
@@ -82,6 +84,7 @@ private:
     std::vector<PairPose> poses_;
     std::vector<std::uint32_t> indices_;
     std::vector<std::uint8_t> stale_;
+    std::vector<std::uint16_t> counts_;
     std::vector<PairSlot> slots_;
     std::vector<LoadRow> rows_;
 };

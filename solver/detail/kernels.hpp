@@ -157,6 +157,7 @@ struct alignas(64) PairPose {
 struct PairScratch {
     PairPose* poses;
     std::uint8_t* stale;
+    std::uint16_t* counts;  ///< of candidates
     std::uint32_t listed_count, active_count;
     std::uint32_t* listed;         ///< pairs with candidates, counted from the block's first
     std::uint32_t* active;         ///< touching pairs, counted likewise; room for all pairs

@@ -48,6 +48,7 @@ void find_poses(const PairBlockView& block, PairScratch& s) {
             first[lane] = block.kinematics + r.i;
             second[lane] = block.kinematics + r.j;
             references[lane] = r.reference;
+            s.counts[k + lane] = r.count;
         }
         const PlaceLanes<L> i = load_places<L>(first), j = load_places<L>(second);
         V old[8];
