@@ -109,8 +109,8 @@ void fill_block(PairList& list, PairBlock& block, const Bodies& bodies) {
             if (before.back()) candidates += padded(before.back()->count);
         }
     if (candidates > block.candidates.capacity()) {  // some more than is needed now
-        block.candidates.reserve(candidates + candidates / 4);
-        block.springs.reserve((candidates + candidates / 4) * list.spring_rows);
+        block.candidates.reserve(candidates + candidates / 8);
+        block.springs.reserve((candidates + candidates / 8) * list.spring_rows);
     }
     for (std::uint32_t i = block.body_begin; i < block.body_end; ++i)
         for (std::uint32_t k = list.rows.first[i]; k < list.rows.first[i + 1]; ++k) {
@@ -173,8 +173,11 @@ void refresh_candidates(const PairList& list, PairBlock& block, PairRecord& reco
             const std::size_t capacity = padded(count);
             record.first = static_cast<std::uint32_t>(block.candidates.size());
             record.capacity = static_cast<std::uint16_t>(capacity);
-            block.candidates.resize(record.first + capacity, Candidate{0, 0});
-            block.springs.resize((record.first + capacity) * rows, no_spring);
+            const std::size_t needed = record.first + capacity;
+            if (needed > block.candidates.capacity()) block.candidates.reserve(needed + needed / 8);  // left to itself a vector doubles
+            if (needed * rows > block.springs.capacity()) block.springs.reserve((needed + needed / 8) * rows);
+            block.candidates.resize(needed, Candidate{0, 0});
+            block.springs.resize(needed * rows, no_spring);
         }
         std::copy_n(search.found, count, block.candidates.begin() + record.first);
         std::copy(springs.begin(), springs.end(), block.springs.begin() + static_cast<std::ptrdiff_t>(record.first * rows));
