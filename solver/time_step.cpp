@@ -40,6 +40,34 @@ std::pair<double, double> damping_of(const detail::LawRow& law, const Physics& p
     return {law.damping * root, law.tangential_damping * root};
 }
 
+/// JKR's overlap and neck in its own units: δ = (b²/R) (x² − sqrt x), F = (E* b³/R) (4/3 x³ − 2 x^1.5), a² = b² x; see solver/detail/cohesion_impl.hpp.
+struct JkrUnits {
+    double b, length;  ///< [m]: b, and b²/R
+    JkrUnits(const detail::LawRow& law, double radius) : b(std::cbrt(law.cohesion_strength * radius * radius)), length(b * b / radius) {}
+};
+
+/// dF/dδ of the normal direction [N/m]; of a contact without cohesion, and where cohesion only pulls with a force, Hertz's or the linear spring's. Pulls that
+/// fall with the overlap soften the contact and are left out; a neck about to snap has a falling force: it cannot oscillate, so it sets no limit either.
+double normal_stiffness(const detail::LawRow& law, double hertz, double radius, double overlap) {
+    if (law.cohesion != Cohesion::jkr) return hertz;
+    const JkrUnits units(law, radius);
+    const double d = overlap / units.length;
+    double x = 1.0 + std::sqrt(d);
+    for (int k = 0; k < 40; ++k) x -= (x * x - std::sqrt(x) - d) / (2.0 * x - 0.5 / std::sqrt(x));
+    return law.half_modulus * units.b * (8.0 * std::pow(x, 2.5) - 6.0 * x) / (4.0 * std::pow(x, 1.5) - 1.0);
+}
+
+/// Overlap at which cohesion alone holds a contact: elastic push = pull [m].
+double resting_overlap(const detail::LawRow& law, const Physics& physics, double radius) {
+    if (law.cohesion == Cohesion::none) return 0.0;
+    if (law.cohesion == Cohesion::jkr) return 0.5723571212766659 * JkrUnits(law, radius).length;  // x^1.5 = 3/2
+    const bool linear = physics.contact == ContactModel::linear;
+    if (law.cohesion == Cohesion::sjkr)  // k R δ against K δ or (2/3) S δ
+        return linear ? 0.0 : std::pow(1.5 * law.cohesion_strength * radius / law.normal_stiffness, 2) / radius;
+    const double pull = law.cohesion_strength * (law.cohesion == Cohesion::capillary ? radius : 1.0);
+    return linear ? pull / law.normal_stiffness : std::pow(1.5 * pull / (law.normal_stiffness * std::sqrt(radius)), 2.0 / 3.0);
+}
+
 /// Adds the contacts of a body pressed against a plane in direction u until its foremost sphere overlaps by `depth`.
 void press(Pressed& sum, const detail::BodyTemplate& t, const detail::LawRow& law, const Physics& physics, const Vec3& u, double depth, double partner_share,
            double partner_mobility) {
@@ -63,7 +91,7 @@ void press(Pressed& sum, const detail::BodyTemplate& t, const detail::LawRow& la
             Eigen::Matrix<double, 6, 1> j;
             j << side * root_mass, arm.cross(side).cwiseProduct(root_inertia);
             const Matrix6 mode = share * j * j.transpose();
-            sum.stiffness += (k == 0 ? stiffness : stiffness * law.tangential_ratio) * mode;
+            sum.stiffness += (k == 0 ? normal_stiffness(law, stiffness, radius, overlap) : stiffness * law.tangential_ratio) * mode;
             sum.damping += (k == 0 ? normal_damping : tangential_damping) * mode;
         }
         if (physics.rolling != RollingModel::elastic_plastic) continue;
@@ -104,8 +132,9 @@ TimeStepAdvice advise_time_step(const SimulationDefinition& d) {
     for (const RigidTemplate& rigid : d.templates) {
         const detail::BodyTemplate t = detail::make_body_template(rigid);
         if (t.density > 0.0) advice.rayleigh = std::min(advice.rayleigh, M_PI * t.smallest_radius * std::sqrt(t.density / g) / (0.1631 * nu + 0.8766));
-        const double depth = overlap_ratio * t.smallest_radius;
         const auto consider = [&](const detail::LawRow& law, double partner_share, double partner_mobility, const std::string& partner) {
+            // Pressed by so much beyond where cohesion holds the contacts anyway.
+            const double depth = overlap_ratio * t.smallest_radius + resting_overlap(law, d.physics, t.largest_radius * partner_share);
             double largest = -1.0;
             Pressed worst;
             for (const Vec3& u : directions()) {
@@ -114,7 +143,10 @@ TimeStepAdvice advise_time_step(const SimulationDefinition& d) {
                 if (const double here = pressed.largest(); here > largest) largest = here, worst = pressed;
             }
             const double limit = 2.0 / std::sqrt(largest * partner_mobility);
-            if (limit < advice.contact_limit) advice.contact_limit = limit, advice.limited_by = "«" + rigid.name + "» against " + partner;
+            if (limit < advice.contact_limit) {
+                advice.contact_limit = limit, advice.limited_by = "«" + rigid.name + "» against " + partner;
+                advice.assumed_overlap_ratio = depth / t.smallest_radius;
+            }
             advice.damped_limit = std::min(advice.damped_limit, stable_step(worst, partner_mobility));
         };
         consider(detail::make_law_row(d.pellet_material, d.pellet_material, d.pellet_contact, d.physics, t.largest_radius, "pellet-pellet"), 0.5, 2.0,

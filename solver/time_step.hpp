@@ -16,7 +16,8 @@ struct TimeStepAdvice {
     /// The same contacts with their damping, whose force lags half a step: the largest Δt for which all eigenvalues of M⁻¹ (K Δt² + 4 C Δt) stay below 4
     /// [s]. Above it a flat contact that presses lightly may rattle; it cannot run away, because the damping falls with the overlap and friction is bounded.
     double damped_limit = 0.0;
-    /// Overlap / radius of the smallest sphere for which contact_limit holds; it falls with overlap^(1/4): see limit_at.
+    /// Overlap / radius of the smallest sphere for which contact_limit holds: 0.1, and with cohesion so much more as it holds a contact without any load
+    /// (JKR: with its own stiffness dF/dδ). The limit falls with overlap^(1/4): see limit_at.
     double assumed_overlap_ratio = 0.0;
     bool hertz = true;       ///< the linear law has the same limit at every overlap
     std::string limited_by;  ///< template and partner that give contact_limit
