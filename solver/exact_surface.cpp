@@ -9,7 +9,9 @@
 namespace pelletlab::solver {
 
 ExactSurface exact_plane(const Vec3& point, const Vec3& normal) {
-    return {ExactSurface::Kind::plane, point, normal.normalized(), {}, {}, {}};
+    ExactSurface s;  // the other members keep their zeros: {} would leave vectors of Eigen as memory was
+    s.kind = ExactSurface::Kind::plane, s.point = point, s.axis = normal.normalized();
+    return s;
 }
 
 ExactSurface exact_cone(const Vec3& point, const Vec3& axis, double low_radius, double low, double high_radius, double high) {

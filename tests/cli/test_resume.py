@@ -6,9 +6,10 @@ import re
 import resource
 import shutil
 import signal
+import subprocess
 import time
 
-from harness import BAD_INPUT, INTERRUPTED, USAGE, PelletlabTest
+from harness import BAD_INPUT, INTERRUPTED, NUMERICAL, USAGE, PelletlabTest
 
 # A second or two of work, with frames often enough to lie on both sides of every checkpoint.
 FILL = ["--set", "pellet.count=60", "--set", "time.settle_limit=0.1 s", "--set", "time.rest_kinetic_energy=1e-300",
@@ -117,6 +118,39 @@ class RunsThatGoOn(PelletlabTest):
             stream.write(whole)
         os.remove(self.path("out/unfinished.part/resume/frames.0000.h5"))
         self.fails(BAD_INPUT, "fill", file, *FILL, "-o", "out", "--resume", says="frames")
+
+    def test_a_run_that_fails_leaves_its_last_good_checkpoint(self):
+        """Gravity upwards: pellets leave the tube, which ends the run. What was kept before stays, and resuming meets the same end."""
+        file = self.new_case()
+        up = [*FILL, "--set", "gravity=0 m/s^2, 0 m/s^2, 9.81 m/s^2", "--set", "time.settle_limit=5 s"]
+        failed = self.run_program("fill", file, *up, *OFTEN, "-o", "out")
+        self.assertEqual(failed.code, NUMERICAL, failed)
+        self.assertTrue(self.has_checkpoint(), failed)
+        again = self.run_program("fill", file, *up, *OFTEN, "-o", "out", "--resume")
+        self.assertEqual(again.code, NUMERICAL, again)
+        said = [re.search(r"error: (.*)", result.err).group(1) for result in (failed, again)]
+        self.assertEqual(said[0], said[1])
+        self.assertTrue(self.has_checkpoint(), again)
+
+    def test_a_file_system_that_is_full(self):
+        """A real one, of 300 kB, where the tests may mount it: one error, and the checkpoint that fitted stays whole."""
+        os.mkdir(self.path("out"))
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=300k", "tmpfs", self.path("out")], capture_output=True).returncode != 0:
+            self.skipTest("no right to mount a small file system")
+        try:
+            file = self.new_case()
+            setting = [*FILL, "--set", "output.frame_interval=0.0001 s"]
+            result = self.run_program("fill", file, *setting, *OFTEN, "-o", "out")
+            self.assertEqual(result.code, BAD_INPUT, result)
+            self.assertEqual(result.err.count("error:"), 1, result)
+            self.assertRegex(result.err.lower(), "no space|full", result)
+            self.assertTrue(self.has_checkpoint(), result)
+            shutil.copytree(self.path("out"), self.path("saved"))
+        finally:
+            subprocess.run(["umount", self.path("out")], check=True)
+        shutil.rmtree(self.path("out"))
+        os.rename(self.path("saved"), self.path("out"))
+        self.same_as_unbroken("fill", file, setting, self.succeeds("fill", file, *setting, "-o", "out", "--resume"))
 
     def test_nothing_to_go_on_from_is_the_beginning(self):
         file = self.new_case()

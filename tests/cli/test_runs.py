@@ -165,13 +165,30 @@ class RefusedRuns(PelletlabTest):
         left = [name for name in self.everything() if name.endswith(".part") or os.path.basename(name) in RESULTS]
         self.assertEqual(left, [], result)
 
-    def test_unstable_time_step_is_a_numerical_failure(self):
-        """A step far above the stable one throws pellets out of the tube: said with time and cause, and no result is written."""
-        result = self.run_program("fill", self.new_case(), *SMALL, "--set", "time.step=0.005 s", "--set", "pellet.count=60",
-                                  "--set", "time.settle_limit=2 s", "--set", "output.frame_interval=0.05 s", "-o", "out")
-        self.assertIn(result.code, (BAD_INPUT, NUMERICAL), result)
-        self.assertIn("step", result.err.lower(), result)
-        self.assertEqual([name for name in self.everything() if name.endswith(".part") or os.path.basename(name) in RESULTS], [], result)
+    def test_unstable_time_step_is_refused_before_the_run(self):
+        self.fails(BAD_INPUT, "fill", self.new_case(), *SMALL, "--set", "time.step=0.004 s", "-o", "out", says=["0.004 s is unstable", "% of the limit", "against"])
+
+    def test_run_that_becomes_unstable_says_when_and_why(self):
+        """Pellets shot down far faster than the step was judged for: one error with time, step and cause, and no result."""
+        result = self.run_program("fill", self.new_case(), *SMALL, "--set", "insertion.fall_speed=80 m/s", "--set", "pellet.count=60", "-o", "out")
+        self.assertEqual(result.code, NUMERICAL, result)
+        self.assertEqual(result.err.count("error:"), 1, result)
+        for word in ("time ", "step ", "what to do:"):
+            self.assertIn(word, result.err, result)
+        self.assertEqual([name for name in self.everything() if os.path.basename(name) in RESULTS], [], result)
+
+    def test_pellet_that_leaves_the_domain_is_named_with_place_time_and_cause(self):
+        """Gravity upwards: the pellets fall out of the open end of the tube."""
+        result = self.run_program("fill", self.new_case(), *SMALL, "--set", "gravity=0 m/s^2, 0 m/s^2, 500 m/s^2", "--set", "time.settle_limit=2 s",
+                                  "--set", "time.step=5 us", "-o", "out")
+        self.assertEqual(result.code, NUMERICAL, result)
+        self.assertEqual(result.err.count("error:"), 1, result)
+        self.assertRegex(result.err, r"body \d+ left the domain at \(.*\) m .*time [0-9.e-]+ s, step \d+")
+        self.assertEqual([name for name in self.everything() if os.path.basename(name) in RESULTS], [], result)
+
+    def test_wall_that_jumps(self):
+        self.fails(BAD_INPUT, "fill", self.new_case(), *SMALL, "--set", "physics.vibration_frequency=50000 Hz", "--set",
+                   "physics.vibration_amplitude=0 mm, 0 mm, 1 mm", "-o", "out", says=["wall «shell» jumps", "time 0 s", "smaller time step"])
 
 
 class InterruptedRuns(PelletlabTest):

@@ -1,8 +1,10 @@
 // Wrong definitions, wrong placements and runs that go wrong: each is one clear error.
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <functional>
 #include <limits>
+#include <new>
 
 #include "../../verification/solver/scene.hpp"
 #include "core/error.hpp"
@@ -166,6 +168,21 @@ TEST(Run, WallsMoveRigidlyAndExactly) {
     const Vec3 p(0.02, 0.01, 0.0);
     const Vec3 expected = m.point + Eigen::AngleAxisd(2.0 * 0.01, Vec3::UnitZ()) * (p - m.point) + m.velocity * 0.01;
     EXPECT_LT((pose.to_world(p) - expected).norm(), 1e-15);
+}
+
+TEST(ExactSurfaces, HaveNoNumbersThatWereNeverSet) {
+    // Built on memory full of NaN: every member of every kind must be a number.
+    alignas(ExactSurface) unsigned char memory[sizeof(ExactSurface)];
+    const auto check = [&](auto make) {
+        std::memset(memory, 0xff, sizeof memory);
+        const auto* s = new (memory) ExactSurface(make());
+        EXPECT_TRUE(s->point.allFinite() && s->axis.allFinite() && s->start.allFinite() && s->end.allFinite() && s->half_size.allFinite());
+    };
+    check([] { return exact_plane(Vec3::Zero(), Vec3::UnitY()); });
+    check([] { return exact_cylinder(Vec3::Zero(), Vec3::UnitY(), 1.0, 0.0, 1.0); });
+    check([] { return exact_disc(Vec3::Zero(), Vec3::UnitY(), 1.0); });
+    check([] { return exact_box(-Vec3::Ones(), Vec3::Ones()); });
+    check([] { return ExactSurface(); });
 }
 
 }  // namespace

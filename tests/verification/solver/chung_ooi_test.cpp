@@ -21,26 +21,29 @@ constexpr Elastic glass{4.8e10, 0.20, 2800}, limestone{2.0e10, 0.25, 2500}, alum
 constexpr Elastic aluminium_oxide{3.8e11, 0.23, 4000}, iron{1.0e11, 0.25, 7000}, alloy{7.0e10, 0.33, 2700}, steel{2.08e11, 0.30, 7850};
 constexpr ElasticMaterial rigid{1e20, 0.3};
 
-/// Deepest overlap, strongest force and duration of one impact.
+/// Deepest overlap, strongest force and duration of one impact; and the overlap's mean, weighted by the force: by so much the lever of friction is shorter
+/// than the radius, ∫ F δ dt / ∫ F dt.
 struct Impact {
-    double overlap = 0.0, force = 0.0, duration = 0.0;
+    double overlap = 0.0, force = 0.0, duration = 0.0, mean_overlap = 0.0;
 };
 
 /// Steps until the contact is over.
 Impact follow(Simulation& s, double dt, const std::function<double()>& overlap_now, const std::function<double()>& force_now) {
     Impact impact;
-    double last = overlap_now(), begin = 0.0;
+    double last = overlap_now(), begin = 0.0, impulse = 0.0, moment = 0.0;
     for (int k = 0; k < 200000; ++k) {
         s.step();
-        const double overlap = overlap_now();
+        const double overlap = overlap_now(), force = force_now();
+        impulse += force, moment += force * overlap;
         if (overlap > 0.0 && last <= 0.0) begin = s.time() - dt * overlap / (overlap - last);
         if (overlap <= 0.0 && last > 0.0) {
             impact.duration = s.time() - dt * overlap / (overlap - last) - begin;
+            impact.mean_overlap = moment / impulse;
             return impact;
         }
         last = overlap;
         impact.overlap = std::max(impact.overlap, overlap);
-        impact.force = std::max(impact.force, force_now());
+        impact.force = std::max(impact.force, force);
     }
     ADD_FAILURE() << "the contact does not end";
     return impact;
@@ -186,29 +189,45 @@ TEST(ChungOoi, Test4GrossSlidingIsTheExactImpulse) {
     }
 }
 
+// In gross sliding the impulses are exact whatever the tangential spring does: friction's is μ times the normal one, P = μ m (1 + e) V_n. Its lever about the
+// centre is r (1 − λ), since the contact lies on the wall, an overlap nearer than r: λ = ∫ F δ dt / (r ∫ F dt). The published closed forms are those of rigid
+// spheres, λ = 0. So the tests ask for two things: the impulses with the lever that was there, at the published stiffness; and the closed form itself where
+// the sphere is so stiff that λ is less than the tolerance (λ falls with modulus^−0.4).
+
 TEST_P(HertzModels, Test5GrossSlidingAtConstantNormalSpeed) {
-    // Elastic: V_st'/(μ V_n') = x − 7 and r ω'/(μ V_n) = −5 with x = V_st/(μ V_n) ≥ 7. The lever is r − overlap, 0.3 % shorter at most, half that on average.
+    // Elastic: V_st'/(μ V_n') = x − 7 + 5 λ and r ω'/(μ V_n) = −5 (1 − λ) with x = V_st/(μ V_n) ≥ 7.
     const double r = 1e-5, vn = 5.0, mu = 0.3;
     for (const double x : {9.0, 13.0, 20.0}) {
         OnPlane run(steel, r, {1.0, mu, 0.0}, GetParam(), 1.5e-12, {x * mu * vn, 0, -vn}, Vec3::Zero());
-        const Impact impact = run.impact();
-        const double lever = impact.overlap / r;
-        figure(name("Chung & Ooi test 5, x = " + std::to_string(static_cast<int>(x))), "V_st'/(mu V_n)", x - 7.0, run.patch_speed() / (mu * vn), 5.0 * lever);
-        figure(name("Chung & Ooi test 5, x = " + std::to_string(static_cast<int>(x))), "r w'/(mu V_n)", 5.0, r * run.bodies().spin[0].y() / (mu * vn),
-               5.0 * lever);
+        const double lever = run.impact().mean_overlap / r;
+        const std::string title = name("Chung & Ooi test 5, x = " + std::to_string(static_cast<int>(x)));
+        figure(title, "V_st'/(mu V_n), lever r (1 − λ)", x - 7.0 + 5.0 * lever, run.patch_speed() / (mu * vn), 1e-4);
+        figure(title, "r w'/(mu V_n), lever r (1 − λ)", 5.0 * (1.0 - lever), r * run.bodies().spin[0].y() / (mu * vn), 1e-4);
     }
 }
 
+TEST(ChungOoi, Test5StiffSpheresAreTheRigidClosedForm) {
+    // The published steel has λ = 0.0053, so 5 λ is 0.026: a modulus 1e7 times as high brings that below 1e-4.
+    const double r = 1e-5, vn = 5.0, mu = 0.3, x = 13.0;
+    const Elastic stiff{1e7 * steel.modulus, steel.poisson, steel.density};
+    OnPlane run(stiff, r, {1.0, mu, 0.0}, ContactModel::hertz_impulse_exact, 2e-15, {x * mu * vn, 0, -vn}, Vec3::Zero());
+    run.impact();
+    figure("Chung & Ooi test 5, x = 13, impulse exact, modulus × 1e7", "V_st'/(mu V_n)", x - 7.0, run.patch_speed() / (mu * vn), 1e-4);
+}
+
+/// Published cases of test 6 have x = (7/2) μ (1 + e) V_n / V_st from 0.18 to 0.77 in the sliding regime; beta = x − 1, with the lever x (1 − (5/7) λ) − 1.
 TEST(ChungOoi, Test6SpinningSphereInTheSlidingRegime) {
-    // beta = x − 1 with x = (7/2) μ (1 + e) V_n / V_st: the published cases have x from 0.18 to 0.77 there. Deviations larger than the lever (overlap / r, 2e-4
-    // on average, which acts on 5/7 of x) would come from the law.
     const double r = 0.1, vn = 0.2, mu = 0.4, e = 0.5;
     for (const double x : {0.176, 0.352, 0.551, 0.771}) {
         const double slip = 3.5 * mu * (1.0 + e) * vn / x;
+        const std::string title = "Chung & Ooi test 6, impulse exact, x = " + std::to_string(x).substr(0, 5);
         OnPlane run(alloy, r, {e, mu, 0.0}, ContactModel::hertz_impulse_exact, 1e-7, {0, 0, -vn}, {0, -slip / r, 0});
-        const Impact impact = run.impact();
-        const double lever = 5.0 / 7.0 * x * impact.overlap / r;
-        figure("Chung & Ooi test 6, impulse exact, x = " + std::to_string(x).substr(0, 5), "beta", x - 1.0, -run.patch_speed() / slip, 1e-4 + lever);
+        const double lever = run.impact().mean_overlap / r;
+        figure(title, "beta, lever r (1 − λ)", x * (1.0 - 5.0 / 7.0 * lever) - 1.0, -run.patch_speed() / slip, 1e-5);
+        const Elastic stiff{1e3 * alloy.modulus, alloy.poisson, alloy.density};
+        OnPlane rigid_run(stiff, r, {e, mu, 0.0}, ContactModel::hertz_impulse_exact, 6e-9, {0, 0, -vn}, {0, -slip / r, 0});
+        rigid_run.impact();
+        figure(title + ", modulus × 1000", "beta", x - 1.0, -rigid_run.patch_speed() / slip, 1e-4);
     }
 }
 
