@@ -14,7 +14,7 @@ CheckedMesh require_closed_body(const TriangleMesh& mesh) {
         if (report.boundary_edges + report.non_manifold_edges + report.inconsistent_edges + report.self_intersections == 0)
             detail::orient_shells(result.mesh, repairs);
     }
-    result.report = check(result.mesh);
+    result.report = repairs.empty() && result.before.is_closed_body() ? result.before : check(result.mesh);
     detail::require_thickness(result.report, result.mesh);
     if (!result.report.defects.empty()) detail::refuse(result.report.defects.front());
     result.report.repairs = std::move(repairs);

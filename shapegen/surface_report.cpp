@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "meshes/mass_properties.hpp"
+#include "shapegen/detail/edge_band.hpp"
 #include "shapegen/detail/outer_surface.hpp"
 #include "shapegen/detail/smooth_patches.hpp"
 #include "shapegen/detail/surface_samples.hpp"
@@ -30,13 +31,6 @@ Vec3 fibonacci(std::size_t k, std::size_t n) {
     return {std::sqrt(1.0 - z * z) * std::cos(turn), std::sqrt(1.0 - z * z) * std::sin(turn), z};
 }
 
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const Vec3 along = b - a;
-    const double length = along.squaredNorm();
-    const double t = length > 0.0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0.0;
-    return (p - a - t * along).norm();
-}
-
 // Height of the union over p along n, looking from `limit` above the surface; NaN where the line meets no sphere below that.
 double height(std::span<const Sphere> spheres, const Vec3& p, const Vec3& n, double limit) {
     double highest = -std::numeric_limits<double>::infinity();
@@ -54,20 +48,10 @@ double height(std::span<const Sphere> spheres, const Vec3& p, const Vec3& n, dou
 void measure_roughness(std::span<const Sphere> spheres, const TriangleMesh& body, const detail::SmoothPatches& patches, double band, SurfaceReport& report) {
     const detail::SurfaceSamples samples = detail::sample_surface(body, height_points, 2);
     std::vector<double> heights(samples.points.size(), nothing);
-    struct Ball {  // around an edge and its band: most points are in none
-        Vec3 middle;
-        double squared;
-    };
-    std::vector<Ball> around;
-    for (const detail::SharpEdge& edge : patches.edges) {
-        const double reach = 0.5 * (edge.b - edge.a).norm() + band;
-        around.push_back({0.5 * (edge.a + edge.b), reach * reach});
-    }
+    const detail::EdgeBand left_out(patches.edges, band);
     parallel_for(samples.points.size(), 256, [&](std::size_t i) {
         const Vec3& p = samples.points[i];
-        for (std::size_t e = 0; e < around.size(); ++e) {
-            if ((p - around[e].middle).squaredNorm() < around[e].squared && distance_to_segment(p, patches.edges[e].a, patches.edges[e].b) < band) return;
-        }
+        if (left_out.holds(p)) return;
         heights[i] = height(spheres, p, samples.normals[i], 2.0 * band);
     });
     struct Sums {

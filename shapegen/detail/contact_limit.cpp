@@ -64,6 +64,7 @@ MinimiserResult fit_within_contacts(std::vector<Sphere>& spheres, const ModeCont
     MinimiserResult total;
     const std::vector<Vec3> normals = plane_directions(context.mesh, looked_at);
     SymmetricTerms terms;
+    terms.second = context.second;
     for (const double weight : {3.0, 30.0, 300.0}) {
         for (const Vec3& normal : normals) {
             for (const TooHigh& sphere : beyond_limit(spheres, normal, limit)) terms.below.push_back({sphere.sphere, normal, sphere.level, weight});

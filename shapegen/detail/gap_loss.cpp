@@ -206,7 +206,7 @@ double GapLoss::evaluate(const VectorXd& x, VectorXd* gradient, BlockMetric* met
             const double gap = length - spheres_[i].radius;
             gap_[k * width + lane] = gap;
             squares += gap * gap;
-            const GapCharge charged = charge(shape_, gap, gap < 0.0);
+            const GapCharge charged = samples_.weight[at + lane] * charge(shape_, gap, gap < 0.0);
             sum += charged.value;
             if (!gradient || slot_[i] < 0) continue;
             const auto s = static_cast<std::size_t>(slot_[i]);

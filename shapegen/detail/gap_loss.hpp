@@ -1,4 +1,4 @@
-// First direction of the fit: mean over points p of the body's surface of φ(p)², φ(p) = min_i |p − c_i| − r_i. The nearest sphere is frozen within one
+// First direction of the fit: weighted mean over points p of the body's surface of φ(p)², φ(p) = min_i |p − c_i| − r_i. The nearest sphere is frozen within one
 // evaluation; that is the exact gradient, because φ is continuous where the nearest sphere changes.
 #pragma once
 
@@ -53,7 +53,7 @@ public:
     void contain(const Containment& containment) { containment_ = containment; }
     void charge_by(const GapShape& shape) { shape_ = shape; }
 
-    /// x holds the free spheres. Returns Σ f(φ) / (number of all points), f(φ) = φ² unless charge_by() says otherwise; fills gradient, and the metric when
+    /// x holds the free spheres. Returns Σ w f(φ) / (number of all points), f(φ) = φ² unless charge_by() says otherwise; fills gradient, and the metric when
     /// wanted.
     double evaluate(const VectorXd& x, VectorXd* gradient, BlockMetric* metric);
 

@@ -20,6 +20,10 @@ struct GapCharge {
     double half_bend = 0.0;   ///< ½ d²f/dφ²
 };
 
+inline GapCharge operator*(double weight, const GapCharge& charge) {
+    return {weight * charge.value, weight * charge.half_slope, weight * charge.half_bend};
+}
+
 /// `outward` > 0 where the union's surface is outside the body at this point.
 inline GapCharge charge(const GapShape& shape, double distance, bool outward) {
     const double weight = outward ? shape.poking : shape.missing;

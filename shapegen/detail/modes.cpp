@@ -69,6 +69,9 @@ void restore_symmetry(std::vector<Sphere>& spheres, const ModeContext& context) 
 
 MinimiserResult fit_mean(std::vector<Sphere>& spheres, const ModeContext& context, const SampleBlocks& samples, std::size_t points) {
     SymmetricLoss loss(samples, context.distance, spheres, context.moments, points);
+    SymmetricTerms terms;
+    terms.second = context.second;
+    loss.charge_by(terms);
     return polish(spheres, loss, context, usual_iterations, usual_tolerance);
 }
 
@@ -122,6 +125,7 @@ MinimiserResult fit_flat(std::vector<Sphere>& spheres, const ModeContext& contex
     for (const double weight : {3.0, 30.0, 300.0}) {
         SymmetricLoss loss(samples, context.distance, spheres, context.moments, points);
         SymmetricTerms terms;
+        terms.second = context.second;
         terms.levels = pole_levels(spheres, context, pole_reach * usual_gap(spheres, context));
         for (auto& level : terms.levels) level.weight = weight;
         loss.charge_by(terms);

@@ -18,6 +18,7 @@ struct ModeContext {
     double min_radius = 0.0;
     double poke_out = 0.0;             ///< how far spheres may reach out of the body in the mode inside
     const SymmetryMap* map = nullptr;  ///< spheres come in its orbits
+    double second = 1.0;               ///< SymmetricTerms::second of the modes mean and flat
 };
 
 /// Minimises `loss` from the given spheres, with the symmetry of the context kept exactly.

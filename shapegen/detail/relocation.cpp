@@ -25,11 +25,11 @@ struct Survey {
     std::vector<std::uint32_t> nearest;             // one a point
     std::vector<double> block_largest;              // largest gap of a block, not below 0
     std::vector<double> group_largest;              // and of a group of blocks
-    std::vector<double> removal_cost;               // growth of Σφ² if the sphere vanished and nothing else moved
+    std::vector<double> removal_cost;               // growth of Σwφ² if the sphere vanished and nothing else moved
     std::vector<std::uint32_t> by_cost;             // spheres, the least useful one first
     std::vector<std::vector<std::uint32_t>> cells;  // blocks in which a sphere is nearest to a point
     std::vector<std::vector<std::uint32_t>> reach;  // blocks in which it is a candidate
-    std::vector<double> weight_below;               // running sum of gap⁴, to draw a point from
+    std::vector<double> weight_below;               // running sum of (w gap²)², to draw a point from
 };
 
 Survey survey(const std::vector<Sphere>& spheres, const SampleBlocks& samples, const Containment& containment) {
@@ -65,11 +65,11 @@ Survey survey(const std::vector<Sphere>& spheres, const SampleBlocks& samples, c
         for (const std::uint32_t i : loss.candidates(b)) state.reach[i].push_back(block);
         for (std::size_t k = b * width; k < (b + 1) * width; ++k) {
             const std::uint32_t owner = state.nearest[k];
-            state.removal_cost[owner] += second[k] * second[k] - state.gap[k] * state.gap[k];
+            state.removal_cost[owner] += samples.weight[k] * (second[k] * second[k] - state.gap[k] * state.gap[k]);
             if (state.cells[owner].empty() || state.cells[owner].back() != block) state.cells[owner].push_back(block);
             const double g = std::max(0.0, state.gap[k]);
             state.block_largest[b] = std::max(state.block_largest[b], g);
-            running += g * g * g * g;
+            running += samples.weight[k] * samples.weight[k] * g * g * g * g;
             state.weight_below[k] = running;
         }
         double& of_group = state.group_largest[b / SampleBlocks::group];
@@ -82,7 +82,7 @@ Survey survey(const std::vector<Sphere>& spheres, const SampleBlocks& samples, c
     return state;
 }
 
-// Fall of Σφ² if `ball` were added and nothing else moved; the blocks that it changes.
+// Fall of Σwφ² if `ball` were added and nothing else moved; the blocks that it changes.
 double insertion_gain(const Sphere& ball, const Survey& state, const SampleBlocks& samples, std::vector<std::uint32_t>& touched) {
     touched.clear();
     double gain = 0.0;
@@ -97,7 +97,7 @@ double insertion_gain(const Sphere& ball, const Survey& state, const SampleBlock
             for (std::size_t k = b * width; k < (b + 1) * width; ++k) {
                 const double gap = (samples.points[k] - ball.centre).norm() - ball.radius;
                 if (gap >= state.gap[k]) continue;
-                gain += state.gap[k] * state.gap[k] - gap * gap;
+                gain += samples.weight[k] * (state.gap[k] * state.gap[k] - gap * gap);
                 changed = true;
             }
             if (changed) touched.push_back(static_cast<std::uint32_t>(b));
@@ -168,7 +168,7 @@ bool propose(const Survey& state, const SampleBlocks& samples, const meshes::Sig
     for (std::size_t b = 0; b < counted.size(); ++b) {
         if (!counted[b]) continue;
         trial.blocks.push_back(static_cast<std::uint32_t>(b));
-        for (std::size_t k = b * width; k < (b + 1) * width; ++k) trial.before += state.gap[k] * state.gap[k];
+        for (std::size_t k = b * width; k < (b + 1) * width; ++k) trial.before += samples.weight[k] * state.gap[k] * state.gap[k];
     }
     trial.before /= static_cast<double>(samples.size());
     return true;

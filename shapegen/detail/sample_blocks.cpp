@@ -30,6 +30,7 @@ SampleBlocks make_blocks(SurfaceSamples samples) {
     samples.normals.resize(count);
     blocks.points = std::move(samples.points);
     blocks.normals = std::move(samples.normals);
+    blocks.weight.assign(count, 1.0);
     for (const Vec3& p : blocks.points) {
         blocks.x.push_back(static_cast<float>(p.x()));
         blocks.y.push_back(static_cast<float>(p.y()));

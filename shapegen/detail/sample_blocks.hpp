@@ -13,6 +13,7 @@ struct SampleBlocks {
     static constexpr std::size_t width = 8;                      ///< points of a block: one AVX2 register of floats
     static constexpr std::size_t group = 16;                     ///< blocks of a group, the coarse level of the search
     std::vector<Vec3> points, normals;                           ///< count rounded down to whole blocks
+    std::vector<double> weight;                                  ///< of each point in the loss, 1 on average
     std::vector<float> x, y, z;                                  ///< the same points
     std::vector<float> ball_x, ball_y, ball_z, ball_radius;      ///< one a block
     std::vector<float> group_x, group_y, group_z, group_radius;  ///< one a group

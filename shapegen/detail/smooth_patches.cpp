@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <numeric>
+#include <tuple>
 
 namespace pelletlab::shapegen::detail {
 
 namespace {
 
 struct Half {
-    std::uint32_t face;
+    std::uint32_t low, high, face;
     bool forward;  // runs from the lower to the higher vertex
 };
 
@@ -27,20 +27,24 @@ std::uint32_t root(std::vector<std::uint32_t>& parent, std::uint32_t f) {
 }  // namespace
 
 SmoothPatches smooth_patches(const TriangleMesh& mesh, double angle) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Half>> halves;
+    std::vector<Half> halves;
+    halves.reserve(3 * mesh.faces.size());
     std::vector<Vec3> normal(mesh.faces.size());
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         normal[f] = (mesh.corner(f, 1) - mesh.corner(f, 0)).cross(mesh.corner(f, 2) - mesh.corner(f, 0)).normalized();
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t a = mesh.faces[f][k], b = mesh.faces[f][(k + 1) % 3];
-            halves[{std::min(a, b), std::max(a, b)}].push_back({static_cast<std::uint32_t>(f), a < b});
+            halves.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(f), a < b});
         }
     }
+    std::sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) { return std::tie(a.low, a.high, a.face) < std::tie(b.low, b.high, b.face); });
     SmoothPatches patches;
     std::vector<std::uint32_t> parent(mesh.faces.size());
     std::iota(parent.begin(), parent.end(), 0u);
-    for (const auto& [ends, faces] : halves) {
-        if (faces.size() != 2) continue;
+    for (std::size_t begin = 0, end = 0; begin < halves.size(); begin = end) {
+        while (end < halves.size() && halves[end].low == halves[begin].low && halves[end].high == halves[begin].high) ++end;
+        if (end - begin != 2) continue;
+        const Half* faces = &halves[begin];
         const Vec3 &n = normal[faces[0].face], &m = normal[faces[1].face];
         const double bend = std::atan2(n.cross(m).norm(), n.dot(m));
         if (bend <= angle) {
@@ -49,12 +53,12 @@ SmoothPatches smooth_patches(const TriangleMesh& mesh, double angle) {
             continue;
         }
         // Convex when the second face falls away behind the first one's plane.
-        const Vec3 along = (mesh.vertices[ends.second] - mesh.vertices[ends.first]) * (faces[0].forward ? 1.0 : -1.0);
+        const Vec3 along = (mesh.vertices[faces[0].high] - mesh.vertices[faces[0].low]) * (faces[0].forward ? 1.0 : -1.0);
         const bool convex = n.cross(m).dot(along) > 0.0;
         const Vec3 sum = n + m;
         if (sum.norm() < 1e-9) continue;
         patches.edges.push_back(
-            {mesh.vertices[ends.first], mesh.vertices[ends.second], -sum.normalized(), convex ? std::numbers::pi - bend : std::numbers::pi + bend});
+            {mesh.vertices[faces[0].low], mesh.vertices[faces[0].high], -sum.normalized(), convex ? std::numbers::pi - bend : std::numbers::pi + bend});
     }
     std::vector<std::int64_t> number(mesh.faces.size(), -1);
     patches.patch_of_face.resize(mesh.faces.size());

@@ -175,13 +175,14 @@ double SymmetricLoss::evaluate(const VectorXd& x, VectorXd& gradient, BlockMetri
 
     // L = s² (E/s²)^(2/p): a length squared whatever the power.
     const double square = terms_.gaps.scale * terms_.gaps.scale, exponent = 2.0 / terms_.gaps.power;
-    const double both = 0.5 * (first_ + second_) / square;
+    const double share = terms_.second, rest = 2.0 - share;
+    const double both = 0.5 * (rest * first_ + share * second_) / square;
     const double outer = exponent * std::pow(both, exponent - 1.0);
-    gradient *= 0.5 * outer;
+    gradient *= 0.5 * outer * rest;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const auto at = static_cast<Eigen::Index>(4 * i);
-        gradient.segment<4>(at) += 0.5 * outer * (parts[i].integral_slope - second_ * parts[i].area_slope) / area;
-        if (metric) metric->blocks[i] = (0.5 * outer * (metric->blocks[i] + parts[i].metric / area)).eval();
+        gradient.segment<4>(at) += 0.5 * outer * share * (parts[i].integral_slope - second_ * parts[i].area_slope) / area;
+        if (metric) metric->blocks[i] = (0.5 * outer * (rest * metric->blocks[i] + share * parts[i].metric / area)).eval();
     }
     return square * std::pow(both, exponent) + add_penalties(spheres, boundary, parts, gradient, metric) + add_levels(spheres, gradient, metric);
 }

@@ -1,5 +1,5 @@
 // Both directions of the fit at once, the quantity that the quality report calls rms²: half the mean of φ_U² over the body's surface plus half the mean
-// of φ_B² over the union's exposed surface, and penalties that hold volume and moments of inertia.
+// of φ_B² over the union's exposed surface (other shares on demand), and penalties that hold volume and moments of inertia.
 //
 // With the union's surface moving at normal speed v (v = n·dc + dr on each sphere), the integral I = ∫ f dA, f = φ_B², changes by
 //     dI = Σ_spheres ∫ (∂f/∂n + 2 f / r) v dA − Σ_creases ∮ f tan(β/2) (v_i + v_j) ds,
@@ -18,6 +18,7 @@ namespace pelletlab::shapegen::detail {
 /// What the loss charges. Penalties are relative to the square of the body's size: at weight 1 an error of 1e-3 weighs as much as gaps of 1e-3.
 struct SymmetricTerms {
     GapShape gaps;
+    double second = 1.0;         ///< share of the second direction, 0 … 2; the first one has the rest
     double volume = 1.0;         ///< × (V_union / V_body − 1)²
     double inertia = 0.01;       ///< × Σ (spread_union / spread_body − 1)²: lightly, few spheres cannot have the body's inertia
     double volume_reward = 0.0;  ///< × (1 − V_union): for spheres that must not poke out
@@ -47,7 +48,7 @@ public:
     /// s² (E / s²)^(2/p) with E the mean charge of both directions, which is the mean square for p = 2, plus the penalties.
     double evaluate(const VectorXd& x, VectorXd& gradient, BlockMetric* metric);
 
-    double first() const { return first_; }    ///< of the last evaluation: mean φ_U² over the body's surface
+    double first() const { return first_; }    ///< of the last evaluation: (weighted) mean φ_U² over the body's surface
     double second() const { return second_; }  ///< mean φ_B² over the union's surface
     double union_volume() const { return union_volume_; }
     double largest() const { return largest_; }  ///< |φ| of both directions, at the points
