@@ -12,6 +12,7 @@
 #include "shapegen/detail/contact_limit.hpp"
 #include "shapegen/detail/edge_band.hpp"
 #include "shapegen/detail/feature_edges.hpp"
+#include "shapegen/detail/few_spheres.hpp"
 #include "shapegen/detail/match_moments.hpp"
 #include "shapegen/detail/modes.hpp"
 #include "shapegen/detail/one_sided.hpp"
@@ -39,7 +40,7 @@ constexpr double sharp_angle = std::numbers::pi / 6.0;  // as in the surface rep
 constexpr double edge_band = 0.08;                      // × smallest extent, as there
 constexpr double weight_of_faces = 1.9;
 constexpr double second_with_faces = 1.4;  // SymmetricTerms::second
-constexpr double least_edges = 0.05;        // share of the surface in that band: below it the body counts as smooth
+constexpr double least_edges = 0.05;       // share of the surface in that band: below it the body counts as smooth
 constexpr double first_spheres = 20, spheres_for_full_weight = 110;
 
 // The body in the frame of the fit.
@@ -246,21 +247,24 @@ FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& se
     FitResult result;
     result.symmetry = chosen_symmetry(mesh, exact, settings);
     const SymmetryGroup group = SymmetryGroup::of(result.symmetry);
-    const bool symmetric = group.elements.size() > 1;
+    const bool symmetric = group.elements.size() > 1, few = !symmetric && n <= few_spheres;
+    const bool minimax = settings.mode == FitMode::minimax;
 
     const std::optional<WeighedBand> band = light_band(body, settings.mode, n);
+    // Where the last stage charges the mean square anyway, fewer samples find the same fit.
+    const std::size_t coarse_each = settings.mode == FitMode::mean || settings.mode == FitMode::flat ? 100 : 150;
     tell("seeding spheres");
-    const SampleBlocks coarse = samples_of(body, std::max({std::size_t{3000}, 150 * n, 1000 * group.elements.size()}), settings.seed, group, band);
+    const SampleBlocks coarse = samples_of(body, std::max({std::size_t{3600}, coarse_each * n, 1000 * group.elements.size()}), settings.seed, group, band);
     SeedSettings seeds;
     seeds.count = n;
     seeds.min_radius = min_radius;
     seeds.largest_radius = 0.5 * body.smallest_extent;
-    seeds.tolerance = std::min(0.3 * expected_gap(n), 0.02 * body.smallest_extent);
+    seeds.tolerance = few ? 0.02 * body.smallest_extent : std::min(0.3 * expected_gap(n), 0.02 * body.smallest_extent);
     std::vector<Sphere> spheres;
     SymmetricSpheres orbits;
     if (symmetric) {
         orbits = seed_orbits(group, coarse, unit_distance, seeds);
-    } else {
+    } else if (!few) {
         spheres = seed_by_gaps(coarse, unit_distance, seeds);
     }
     result.times.seeds = clock.lap();
@@ -283,7 +287,7 @@ FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& se
         loss.copy_spheres(spheres);
         result.iterations += settled.iterations;
     };
-    settle_all(coarse, 60, 1e-3);
+    if (!few) settle_all(coarse, 60, 1e-3);
 
     tell("moving spheres to better places");
     RelocationSettings relocation;
@@ -293,15 +297,22 @@ FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& se
     relocation.largest_radius = seeds.largest_radius;
     relocation.tolerance = seeds.tolerance;
     relocation.slack = containment.slack;
-    const RelocationResult moved =
-        symmetric ? relocate_orbits(group, orbits, coarse, unit_distance, relocation) : relocate(spheres, coarse, unit_distance, relocation);
-    result.iterations += moved.iterations;
-    result.relocations = moved.accepted;
-
-    const bool minimax = settings.mode == FitMode::minimax;
     SampleBlocks fine = samples_of(body, std::max({std::size_t{8000}, 300 * n, 1000 * group.elements.size()}), settings.seed + 1, group, band,
                                    minimax || settings.mode == FitMode::outside);
-    settle_all(fine, 60, 1e-4);
+    const std::size_t points = std::max<std::size_t>(10000, (minimax ? 120 : 60) * n);
+    if (few) {
+        const ModeContext plain{body.mesh, unit_distance, unit_exact, body.moments, min_radius, 0.0, nullptr, 1.0};
+        FewSpheresResult found = fit_few(n, coarse, fine, plain, points, relocation);
+        spheres = std::move(found.spheres);
+        result.iterations += found.iterations;
+        result.relocations = found.relocations;
+    } else {
+        const RelocationResult moved =
+            symmetric ? relocate_orbits(group, orbits, coarse, unit_distance, relocation) : relocate(spheres, coarse, unit_distance, relocation);
+        result.iterations += moved.iterations;
+        result.relocations = moved.accepted;
+        settle_all(fine, 60, 1e-4);
+    }
     result.times.search = clock.lap();
 
     tell("matching both surfaces");
@@ -314,7 +325,6 @@ FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& se
                               settings.poke_out / body.frame.length,
                               symmetric ? &map : nullptr,
                               band ? band->second : 1.0};
-    const std::size_t points = std::max<std::size_t>(10000, (minimax ? 120 : 60) * n);
     MinimiserResult polished = mode_stage(settings.mode)(spheres, context, fine, points);
     const ContactLimit limit{settings.most_contacts, (settings.press > 0.0 ? settings.press / body.frame.length : body.smallest_extent / 300.0)};
     if (limit.most > 0) polished.iterations += fit_within_contacts(spheres, context, limit, fine, points).iterations;

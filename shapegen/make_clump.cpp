@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "meshes/mass_properties.hpp"
 #include "meshes/signed_distance.hpp"
-#include "shapegen/quality.hpp"
+#include "shapegen/detail/known_union.hpp"
 #include "shapegen/union_properties.hpp"
 
 namespace pelletlab::shapegen {
@@ -35,9 +35,10 @@ MadeClump judged_clump(std::span<const Sphere> spheres_mesh, const TriangleMesh&
     if (!(settings.density > 0.0)) throw bad_input("the particle density is not positive", "give it like 1800 kg/m^3");
     MadeClump made;
     made.fit.spheres.assign(spheres_mesh.begin(), spheres_mesh.end());
-    made.clump.quality = measure_quality(spheres_mesh, body, exact);
+    const detail::KnownUnion known(spheres_mesh);
+    made.clump.quality = detail::measure_quality(known, body, exact);
     if (settings.measure_surface) {
-        made.surface = measure_surface(spheres_mesh, body, exact);
+        made.surface = detail::measure_surface(known, body, exact, {});
         made.clump.quality.surface = made.surface;
     }
     MassComparison& masses = made.clump.masses;

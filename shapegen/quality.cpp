@@ -9,7 +9,7 @@
 #include "core/parallel.hpp"
 #include "meshes/mass_properties.hpp"
 #include "shapegen/detail/column_overlap.hpp"
-#include "shapegen/detail/outer_surface.hpp"
+#include "shapegen/detail/known_union.hpp"
 #include "shapegen/detail/surface_samples.hpp"
 #include "shapegen/detail/union_boundary.hpp"
 #include "shapegen/detail/union_distance.hpp"
@@ -122,7 +122,11 @@ Vec3 ascending(Vec3 v) {
 }  // namespace
 
 FitQuality measure_quality(std::span<const Sphere> spheres, const TriangleMesh& body, const meshes::SignedDistance& exact) {
-    if (spheres.empty()) throw bad_input("there are no spheres to judge", "give at least one");
+    return detail::measure_quality(detail::KnownUnion(spheres), body, exact);
+}
+
+FitQuality detail::measure_quality(const KnownUnion& known, const TriangleMesh& body, const meshes::SignedDistance& exact) {
+    const std::span<const Sphere> spheres = known.spheres;
     FitQuality quality;
     const MassProperties target = meshes::mass_properties(body, 1.0);
     const MassProperties clump = union_mass_properties(spheres, 1.0);
@@ -134,10 +138,8 @@ FitQuality measure_quality(std::span<const Sphere> spheres, const TriangleMesh& 
     quality.outside = overlap.outside / target.volume;
     quality.symmetric_difference = quality.missing + quality.outside;
 
-    const std::vector<detail::ExposedPart> boundary = detail::union_boundary(spheres);
-    const detail::OuterSurface outer(spheres);
-    const Distances forth = target_to_union(body, detail::UnionDistance(spheres, boundary, outer));
-    const Distances back = union_to_target(spheres, boundary, outer, exact);
+    const Distances forth = target_to_union(body, UnionDistance(spheres, known.boundary, known.outer));
+    const Distances back = union_to_target(spheres, known.boundary, known.outer, exact);
     quality.target_to_union = figures(forth);
     quality.union_to_target = figures(back);
     quality.both = together(forth, back);

@@ -10,7 +10,7 @@
 #include "core/parallel.hpp"
 #include "meshes/mass_properties.hpp"
 #include "shapegen/detail/edge_band.hpp"
-#include "shapegen/detail/outer_surface.hpp"
+#include "shapegen/detail/known_union.hpp"
 #include "shapegen/detail/smooth_patches.hpp"
 #include "shapegen/detail/surface_samples.hpp"
 #include "shapegen/detail/union_boundary.hpp"
@@ -222,14 +222,17 @@ std::size_t component_count(std::span<const Sphere> spheres) {
 
 SurfaceReport measure_surface(std::span<const Sphere> spheres, const TriangleMesh& body, const meshes::SignedDistance& exact,
                               const SurfaceReportSettings& settings) {
-    if (spheres.empty()) throw bad_input("there are no spheres to judge", "give at least one");
+    return detail::measure_surface(detail::KnownUnion(spheres), body, exact, settings);
+}
+
+SurfaceReport detail::measure_surface(const KnownUnion& known, const TriangleMesh& body, const meshes::SignedDistance& exact,
+                                      const SurfaceReportSettings& settings) {
+    const std::span<const Sphere> spheres = known.spheres;
     SurfaceReport report;
     const double extent = bounding_box(body).sizes().minCoeff();
     const detail::SmoothPatches patches = detail::smooth_patches(body, settings.sharp_angle);
-    const std::vector<detail::ExposedPart> boundary = detail::union_boundary(spheres);
-    const detail::OuterSurface outer(spheres);
     measure_roughness(spheres, body, patches, settings.edge_band * extent, report);
-    measure_normals(spheres, boundary, outer, exact, report);
+    measure_normals(spheres, known.boundary, known.outer, exact, report);
     measure_edges(spheres, patches.edges, extent / 200.0, report);
     report.press = settings.press > 0.0 ? settings.press : extent / 300.0;
     measure_planes(spheres, body, report);
@@ -241,10 +244,10 @@ SurfaceReport measure_surface(std::span<const Sphere> spheres, const TriangleMes
         report.sum_volume += 4.0 / 3.0 * std::numbers::pi * s.radius * s.radius * s.radius;
     }
     report.components = component_count(spheres);
-    report.sealed_volume = outer.sealed_volume();
+    report.sealed_volume = known.outer.sealed_volume();
     Box box;
     for (const Sphere& s : spheres) box.extend(s.centre);
-    report.union_volume = detail::union_moments(spheres, boundary, box.center()).volume;
+    report.union_volume = detail::union_moments(spheres, known.boundary, box.center()).volume;
     report.mesh_volume = meshes::mass_properties(body, 1.0).volume;
     return report;
 }
