@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
     pelletlab::apps::add_fill_verb(app);
     pelletlab::apps::add_drum_verb(app);
     pelletlab::apps::add_pile_verb(app);
+    pelletlab::apps::add_tester_verb(app);
     pelletlab::apps::add_observe_verb(app);
     pelletlab::apps::add_demo_verb(app);
     pelletlab::apps::add_case_verb(app);

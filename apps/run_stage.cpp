@@ -13,6 +13,7 @@
 #include "apps/stage.hpp"
 #include "apps/terminal.hpp"
 #include "core/error.hpp"
+#include "experiments/attrition_tester.hpp"
 #include "experiments/rotating_drum.hpp"
 #include "experiments/sandpile.hpp"
 #include "io/case_file.hpp"
@@ -57,7 +58,10 @@ StageKey key_of(const Case& c, const fs::path& clump_file) {
 packing::RunResult run_rig(const Case& c, const packing::RunInputs& inputs, RunKeeper& keeper, const fs::path& trajectory_file) {
     const auto open_sink = [&](const TrajectoryHeader& header) { return keeper.open(header); };
     ProgressPrinter progress;
-    const auto run = c.rig == Rig::tube ? packing::fill_tube : c.rig == Rig::drum ? experiments::run_drum : experiments::run_pile;
+    const auto run = c.rig == Rig::tube   ? packing::fill_tube
+                     : c.rig == Rig::drum ? experiments::run_drum
+                     : c.rig == Rig::pile ? experiments::run_pile
+                                          : experiments::run_tester;
     packing::RunResult result = run(c, inputs, open_sink, progress.sink(), keeper.keeping());
     progress.finish();
     keeper.finish(trajectory_file);
@@ -81,6 +85,7 @@ void write_pictures(const Case& c, const FrameSource& trajectory, const Observab
             case Rig::pile:
                 return report::picture_of_pile(trajectory.header(), last, settings);
             case Rig::tube:
+                if (c.tube.lying) return report::picture_of_drum(trajectory.header(), last, settings);
                 break;
         }
         return report::picture_of_tube(trajectory.header(), last, settings);
@@ -90,6 +95,14 @@ void write_pictures(const Case& c, const FrameSource& trajectory, const Observab
     if (c.rig == Rig::pile && !observables.maps.empty()) {
         report::write_png(report::picture_of_map(observables, "pile_top_surface", settings), folder / "top-surface.png");
         written.emplace_back("top-surface.png", "height of the pile, seen from above");
+    }
+    if (c.rig == Rig::tester) {
+        settings.circle_diameter = c.tester.diameter;
+        settings.range = report::ValueRange{0.0, 0.6};  // one scale for all eight
+        for (const FieldMap& map : observables.maps) {
+            report::write_png(report::picture_of_map(observables, map.name, settings), folder / (map.name + ".png"));
+            written.emplace_back(map.name + ".png", "solid fraction, baffle at " + map.name.substr(map.name.size() - 3) + " degrees");
+        }
     }
     if (c.rig == Rig::drum) {
         report::write_png(report::picture_of_map(observables, "speed", settings), folder / "velocity-map.png");

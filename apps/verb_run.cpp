@@ -1,4 +1,4 @@
-// pelletlab fill, drum and pile CASE: the rigs on the command line.
+// pelletlab fill, drum, pile and tester CASE: the rigs on the command line.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -51,6 +51,12 @@ void add_pile_verb(CLI::App& app) {
     add_run_verb(app, Rig::pile, "pile",
                  "Pour a pile on a plate, from a funnel or a lifted cylinder, and measure it\n"
                  "  example: pelletlab pile examples/sandpile.toml --set pellet.count=1000");
+}
+
+void add_tester_verb(CLI::App& app) {
+    add_run_verb(app, Rig::tester, "tester",
+                 "Turn an attrition tester (ASTM D4058): the pellet cloud at eight baffle angles, release angle\n"
+                 "  example: pelletlab tester examples/attrition_40rpm.toml --set pellet.count=300");
 }
 
 }  // namespace pelletlab::apps

@@ -11,6 +11,7 @@ void add_case_verb(CLI::App& app);
 void add_fill_verb(CLI::App& app);
 void add_drum_verb(CLI::App& app);
 void add_pile_verb(CLI::App& app);
+void add_tester_verb(CLI::App& app);
 void add_observe_verb(CLI::App& app);
 void add_demo_verb(CLI::App& app);
 void add_diagnose_verb(CLI::App& app);

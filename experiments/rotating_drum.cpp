@@ -1,17 +1,14 @@
 #include "experiments/rotating_drum.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <span>
 
 #include "core/error.hpp"
-#include "meshes/makers.hpp"
-#include "meshes/read_mesh.hpp"
 #include "observables/drum.hpp"
 #include "observables/statistics.hpp"
 #include "packing/insertion.hpp"
+#include "packing/lying_vessel.hpp"
 #include "packing/run_figures.hpp"
 #include "packing/stage.hpp"
 
@@ -20,55 +17,9 @@ namespace pelletlab::experiments {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double elbow_room = 1.2;        // sites of the closest lattice a pellet: with less the cloud stays a crystal
 constexpr double watch_interval = 0.001;  // [s] between looks at torque and overlaps
 constexpr std::size_t torque_groups = 20;
 constexpr double sparse = 10.0;  // frames before the measurement are stored at this many times frame_interval
-
-/// Area of the part of a circle below z = level [m²].
-double segment_area(double radius, double level) {
-    const double z = std::clamp(level / radius, -1.0, 1.0);
-    return radius * radius * (pi - std::acos(z) + z * std::sqrt(1.0 - z * z));
-}
-
-/// The lowest lens of the drum that holds the pellets at insertion.packing_fraction, one bounding sphere deeper, and deeper still while the lattice of bounding
-/// spheres has too few sites: pellets should not fall further than they must.
-packing::InsertionRegion cloud_region(const Case& c, const RigidTemplate& pellet, std::uint32_t count) {
-    packing::InsertionRegion region{packing::InsertionRegion::Axis::y, 0.5 * c.drum.diameter, -0.5 * c.drum.length, 0.5 * c.drum.length};
-    const double wanted = count * pellet.mass_properties.volume / (c.insertion.packing_fraction * c.drum.length);
-    double below = -region.radius, above = region.radius;
-    for (int halving = 0; halving < 60; ++halving) {
-        const double middle = 0.5 * (below + above);
-        (segment_area(region.radius, middle) < wanted ? below : above) = middle;
-    }
-    region.ceiling = above + 2.0 * pellet.bounding_radius;
-    while (region.ceiling < region.radius && packing::cloud_capacity(pellet, region) < elbow_room * count) region.ceiling += 0.5 * pellet.bounding_radius;
-    region.ceiling = std::min(region.ceiling, region.radius);
-    return region;
-}
-
-/// The user's own drum: it must be where the measurement expects it.
-TriangleMesh read_drum_mesh(const Case& c) {
-    const std::string file = (std::filesystem::path(c.folder) / c.drum.mesh_file).string();
-    TriangleMesh mesh = meshes::read_mesh(file, c.drum.mesh_unit);
-    const Box box = bounding_box(mesh);
-    // A mesh of the solid drum has an outer surface as well, so it may be larger than the inside; twice as large is a wrong unit.
-    const Vec3 half(0.5 * c.drum.diameter, 0.5 * c.drum.length, 0.5 * c.drum.diameter);
-    const Vec3 reach_up = box.max().cwiseQuotient(half), reach_down = (-box.min()).cwiseQuotient(half);
-    if (std::min(reach_up.minCoeff(), reach_down.minCoeff()) < 0.95 || std::max(reach_up.maxCoeff(), reach_down.maxCoeff()) > 2.0)
-        throw bad_input("the drum mesh does not enclose a cylinder of drum.diameter and drum.length about the y axis, centred in the origin",
-                        "move the mesh there, or correct drum.diameter, drum.length or drum.mesh_unit", {file});
-    return mesh;
-}
-
-std::vector<solver::WallDefinition> drum_walls(const Case& c) {
-    const DrumRig& drum = c.drum;
-    if (!drum.mesh_file.empty()) return {packing::define_wall(c, "shell", read_drum_mesh(c), drum.material)};
-    const double end = 0.5 * drum.length;
-    return {packing::define_wall(c, "shell", meshes::make_drum_shell(drum.diameter, drum.length, drum.facets), drum.material),
-            packing::define_wall(c, "front", meshes::make_drum_end(drum.diameter, -end, true, drum.facets), drum.material),
-            packing::define_wall(c, "back", meshes::make_drum_end(drum.diameter, end, false, drum.facets), drum.material)};
-}
 
 void start_rotation(solver::Simulation& simulation, const DrumRig& drum) {
     for (std::size_t wall = 0; wall < simulation.definition().walls.size(); ++wall)
@@ -112,10 +63,14 @@ std::uint32_t pellet_count(const DrumRig& drum, double pellet_volume) {
 packing::RunResult run_drum(const Case& c, const packing::RunInputs& inputs, const std::function<packing::FrameSink(const TrajectoryHeader&)>& open_sink,
                             const ProgressSink& progress, const packing::RunKeeping& keeping) {
     if (c.rig != Rig::drum) throw bad_input("the case '" + c.name + "' is not a drum", "set rig = \"drum\"");
-    solver::Simulation simulation(packing::define_simulation(c, inputs, drum_walls(c)));
+    solver::Simulation simulation(packing::define_simulation(
+        c, inputs, packing::lying_walls(c, {"drum", c.drum.diameter, c.drum.length, c.drum.facets, c.drum.mesh_file, c.drum.mesh_unit, c.drum.material})));
     const RigidTemplate& pellet = simulation.definition().templates.front();
     const std::uint32_t count = c.pellet.count > 0 ? c.pellet.count : pellet_count(c.drum, pellet.mass_properties.volume);
-    if (!keeping.from) simulation.add_bodies(packing::loose_cloud(pellet, count, cloud_region(c, pellet, count), c.seed, {0.0, 0.0, -c.insertion.fall_speed}));
+    if (!keeping.from)
+        simulation.add_bodies(packing::loose_cloud(pellet, count,
+                                                   packing::lens_region(pellet, count, c.insertion.packing_fraction, c.drum.diameter, c.drum.length), c.seed,
+                                                   {0.0, 0.0, -c.insertion.fall_speed}));
 
     Trajectory measured;
     packing::FrameSink stored;

@@ -43,6 +43,7 @@ VtkPolyData bodies_of(const TrajectoryHeader& header, const Frame& frame) {
     std::vector<std::int32_t> body, shape;
     std::vector<float> quaternion, velocity, spin, speed, radius;
     for (std::size_t i = 0; i < header.shape_of_body.size(); ++i) {
+        if (!frame.is_seen(i)) continue;  // not released yet, or a lost track
         data.vertices.connectivity.push_back(point_count(data));
         push_point(data, frame.positions[i]);
         body.push_back(static_cast<std::int32_t>(i));
@@ -72,6 +73,7 @@ VtkPolyData surfaces_of(const TrajectoryHeader& header, const Frame& frame) {
     std::vector<std::int32_t> body;
     std::vector<float> speed;
     for (std::size_t i = 0; i < header.shape_of_body.size(); ++i) {
+        if (!frame.is_seen(i)) continue;  // not released yet, or a lost track
         const std::size_t polygons = push_mesh(data, header.shapes[header.shape_of_body[i]].surface_body, {frame.positions[i], frame.orientations[i]});
         body.insert(body.end(), polygons, static_cast<std::int32_t>(i));
         speed.insert(speed.end(), polygons, static_cast<float>(frame.velocities[i].norm()));
@@ -87,6 +89,7 @@ VtkPolyData spheres_of(const TrajectoryHeader& header, const Frame& frame) {
     std::vector<std::int32_t> body;
     std::vector<float> radius, speed;
     for (std::size_t i = 0; i < header.shape_of_body.size(); ++i) {
+        if (!frame.is_seen(i)) continue;  // not released yet, or a lost track
         const Pose pose{frame.positions[i], frame.orientations[i]};
         for (const Sphere& sphere : header.shapes[header.shape_of_body[i]].rigid.spheres) {
             data.vertices.connectivity.push_back(point_count(data));

@@ -9,24 +9,15 @@
 #include "meshes/makers.hpp"
 #include "meshes/read_mesh.hpp"
 #include "observables/bed.hpp"
-#include "packing/insertion.hpp"
+#include "observables/lying_bed.hpp"
+#include "packing/fill_ways.hpp"
+#include "packing/lying_vessel.hpp"
 #include "packing/run_figures.hpp"
 #include "packing/stage.hpp"
 
 namespace pelletlab::packing {
 
 namespace {
-
-/// Where the loose pellets go. A tube of given height is filled up to insertion.packing_fraction or to its rim; one as high as needed is made higher.
-InsertionRegion cloud_region(const Case& c, const RigidTemplate& pellet) {
-    const double radius = 0.5 * c.tube.diameter;
-    if (!(c.tube.height > 0.0)) return upright_region(pellet, c.pellet.count, c.insertion.packing_fraction, radius, 0.0);
-    const double section = std::numbers::pi * radius * radius;
-    const double wanted = c.pellet.count * pellet.mass_properties.volume / (c.insertion.packing_fraction * section) + 2.0 * pellet.bounding_radius;
-    InsertionRegion region{InsertionRegion::Axis::z, radius, 0.0, std::min(wanted, c.tube.height)};
-    if (cloud_capacity(pellet, region) < c.pellet.count) region.upper = c.tube.height;
-    return region;
-}
 
 /// The user's own tube: it must be where the measurement expects it.
 TriangleMesh read_tube_mesh(const Case& c, double cloud_top) {
@@ -61,9 +52,30 @@ std::vector<solver::WallDefinition> tube_walls(const Case& c, double cloud_top) 
     return walls;
 }
 
-Vec3 falling(const Case& c) {
-    const double g = c.gravity.norm();
-    return g > 0.0 ? Vec3(c.gravity * (c.insertion.fall_speed / g)) : Vec3(0.0, 0.0, -c.insertion.fall_speed);
+/// A tube that lies: filled with a cloud, measured as it lies.
+struct Vessel {
+    std::vector<solver::WallDefinition> walls;
+    FillPlan plan;
+};
+
+Vessel make_vessel(const Case& c, const RigidTemplate& pellet) {
+    const TubeRig& tube = c.tube;
+    Vessel vessel;
+    if (tube.lying) {
+        vessel.plan.rounds = {c.pellet.count};
+        vessel.plan.region = lens_region(pellet, c.pellet.count, c.insertion.packing_fraction, tube.diameter, tube.height);
+        vessel.walls = lying_walls(c, {"tube", tube.diameter, tube.height, tube.facets, tube.mesh_file, tube.mesh_unit, tube.material});
+        return vessel;
+    }
+    vessel.plan = plan_fill(c, pellet);
+    vessel.walls = tube_walls(c, vessel.plan.top);
+    for (const solver::WallDefinition& wall : vessel.plan.walls) vessel.walls.push_back(wall);
+    return vessel;
+}
+
+Observables measure(const Trajectory& last, const Case& c) {
+    if (c.tube.lying) return observables::measure_lying_bed(last, {0.5 * c.tube.diameter, c.tube.height, c.measurement.height_grid});
+    return observables::measure_tube_bed(last, {0.5 * c.tube.diameter, 0.0, c.measurement.height_grid});
 }
 
 }  // namespace
@@ -73,10 +85,11 @@ RunResult fill_tube(const Case& c, const RunInputs& inputs, const std::function<
     if (c.rig != Rig::tube) throw bad_input("the case '" + c.name + "' is not a tube", "set rig = \"tube\"");
     if (c.pellet.count == 0) throw bad_input("pellet.count is 0: a tube needs a number of pellets", "set pellet.count");
     solver::SimulationDefinition definition = define_simulation(c, inputs, {});
-    const InsertionRegion region = cloud_region(c, definition.templates.front());
-    definition.walls = tube_walls(c, region.upper);
+    Vessel vessel = make_vessel(c, definition.templates.front());
+    const FillPlan& plan = vessel.plan;
+    definition.walls = std::move(vessel.walls);
     solver::Simulation simulation(std::move(definition));
-    if (!keeping.from) simulation.add_bodies(loose_cloud(simulation.definition().templates.front(), c.pellet.count, region, c.seed, falling(c)));
+    if (!keeping.from) add_round(simulation, c, plan, 0);
 
     Trajectory last;  // the bed is measured from one frame
     FrameSink stored;
@@ -86,15 +99,18 @@ RunResult fill_tube(const Case& c, const RunInputs& inputs, const std::function<
             if (stored) stored(frame);
         },
         progress, keeping);
+    course.pellets_in_all = c.pellet.count;
     last.head = trajectory_header(c, inputs, simulation);
+    last.head.shape_of_body.assign(c.pellet.count, 0);
     if (open_sink) stored = open_sink(last.head);
-    if (!course.is_catching_up()) course.store(capture_frame(simulation));
-    const SettleStatus status = settle(course, simulation, c, c.output.frame_interval);
+    if (!course.is_catching_up()) course.store(capture_frame(simulation, c.pellet.count));
+    const SettleStatus status = tap(course, simulation, c, fill(course, simulation, c, plan));
     last.frames = {capture_frame(simulation)};
     const RunMeter& meter = course.meter;
 
     RunResult result;
-    result.observables = observables::measure_tube_bed(last, {0.5 * c.tube.diameter, 0.0, c.measurement.height_grid});
+    result.observables = measure(last, c);
+    if (plan.outlet > 0.0 && pellets_above(simulation, plan.outlet) > 0) result.observables.status = "funnel not empty";
     if (status == SettleStatus::not_at_rest) result.observables.status = "not at rest";  // says more than «thin bed»
     if (const double share = load_share(simulation, "floor"); std::isfinite(share))
         result.observables.values.push_back({"floor_load_share", "1", share, not_known, {simulation.time(), simulation.time()}, "tube.floor_load"});

@@ -1,4 +1,4 @@
-// Tube filling: a loose cloud of pellets falls into a vertical tube and comes to rest.
+// Tube filling: pellets fall into a vertical tube in one of several ways (packing/fill_ways.hpp), or as a cloud into a lying one, and come to rest.
 #pragma once
 
 #include "core/observables.hpp"

@@ -1,5 +1,7 @@
 #include "packing/run_frames.hpp"
 
+#include <limits>
+
 #include "core/error.hpp"
 
 namespace pelletlab::packing {
@@ -85,9 +87,16 @@ solver::WallDefinition define_wall(const Case& c, std::string name, TriangleMesh
     return wall;
 }
 
-Frame capture_frame(const solver::Simulation& simulation) {
+Frame capture_frame(const solver::Simulation& simulation, std::size_t in_all) {
     const solver::BodyState& bodies = simulation.bodies();
-    return {simulation.time(), bodies.position, bodies.orientation, bodies.velocity, bodies.spin, simulation.wall_poses()};
+    Frame frame{simulation.time(), bodies.position, bodies.orientation, bodies.velocity, bodies.spin, simulation.wall_poses()};
+    if (bodies.size() >= in_all) return frame;
+    const Vec3 nowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+    frame.positions.resize(in_all, nowhere);
+    frame.orientations.resize(in_all, Quat::Identity());
+    frame.velocities.resize(in_all, nowhere);
+    frame.spins.resize(in_all, nowhere);
+    return frame;
 }
 
 TrajectoryHeader trajectory_header(const Case& c, const RunInputs& inputs, const solver::Simulation& simulation) {

@@ -27,7 +27,8 @@ solver::SimulationDefinition define_simulation(const Case& c, const RunInputs& i
 /// Wall of the case's material with the contact row «pellet-<name>», else «pellet-<material>».
 solver::WallDefinition define_wall(const Case& c, std::string name, TriangleMesh mesh, const std::string& material);
 
-Frame capture_frame(const solver::Simulation& simulation);
+/// Pellets of `in_all` that have not been released yet have a NaN position and velocity.
+Frame capture_frame(const solver::Simulation& simulation, std::size_t in_all = 0);
 TrajectoryHeader trajectory_header(const Case& c, const RunInputs& inputs, const solver::Simulation& simulation);
 
 }  // namespace pelletlab::packing

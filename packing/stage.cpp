@@ -123,12 +123,12 @@ StageEnd Course::run(Stage& stage) {
             if (stage.watch && stage.watch(simulation_, stage.memory)) end = StageEnd::watch_ended_it;
         }
         if (frame_every > 0 && done % frame_every == 0) {
-            store(capture_frame(simulation_));
+            store(capture_frame(simulation_, pellets_in_all));
             stored = true;
         }
         reporter.report(done, total, false);
     }
-    if (!stored) store(capture_frame(simulation_));
+    if (!stored) store(capture_frame(simulation_, pellets_in_all));
     reporter.report(done, end == StageEnd::watch_ended_it ? done : total, true);
     ended_.push_back(end);
     return end;

@@ -47,6 +47,7 @@ public:
     Frame stored_frame(std::size_t k) const { return keeping_.stored_frame(k); }
 
     RunMeter meter;
+    std::size_t pellets_in_all = 0;  ///< of a run that releases them one after the other: what its frames have room for
 
 private:
     void keep(const Stage& stage, std::uint64_t done);

@@ -71,6 +71,26 @@ class RunsThatGoOn(PelletlabTest):
             resumed = self.succeeds("drum", file, *DRUM, "-o", "out", "--resume", "--threads", "2")
             self.same_as_unbroken("drum", file, DRUM + ["--force"], resumed)
 
+    def test_pile_and_tester_go_on_with_the_same_bits(self):
+        pile = ["--set", "pellet.count=40", "--set", "time.step=2e-5 s", "--set", "funnel.top_diameter=30 mm", "--set", "funnel.outlet_diameter=16 mm",
+                "--set", "funnel.outlet_height=30 mm", "--set", "time.settle_limit=0.1 s", "--set", "pile.discharge_limit=0.6 s",
+                "--set", "output.pictures=false", "--set", "output.paraview=false"]
+        tester = ["--set", "pellet.count=60", "--set", "time.step=2e-5 s", "--set", "tester.diameter=60 mm", "--set", "tester.length=20 mm",
+                  "--set", "tester.baffle_height=12 mm", "--set", "tester.speed=180 rpm", "--set", "time.settle_limit=0.05 s", "--set", "time.spin_up=0.05 s",
+                  "--set", "time.measure=0.7 s", "--set", "output.pictures=false", "--set", "output.paraview=false"]
+        for verb, settings in (("pile", pile), ("tester", tester)):
+            for folder in ("out", "whole"):
+                shutil.rmtree(self.path(folder), ignore_errors=True)
+            file = self.new_case(verb)
+            begin = time.monotonic()
+            self.succeeds(verb, file, *settings, *OFTEN, "-o", "whole")
+            whole = time.monotonic() - begin
+            begin = time.monotonic()
+            process = self.start(verb, file, *settings, *OFTEN, "-o", "out")
+            result = self.interrupt(process, lambda: self.has_checkpoint() and time.monotonic() - begin > 0.6 * whole)
+            self.assertEqual(result.code, INTERRUPTED, result)
+            self.same_as_unbroken(verb, file, settings + ["--force"], self.succeeds(verb, file, *settings, "-o", "out", "--resume", "--threads", "2"))
+
     def test_twenty_kills_cost_nothing_but_time(self):
         file = self.new_case()
         chance = random.Random(20)

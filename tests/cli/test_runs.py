@@ -64,6 +64,23 @@ class Runs(PelletlabTest):
         hashes = {self.state_hash(self.succeeds("--threads", n, "pile", file, *self.PILE, "--set", "output.pictures=false", "-o", f"out-{n}")) for n in ("1", "2")}
         self.assertEqual(len(hashes), 1)
 
+    TESTER = ["--set", "pellet.count=60", "--set", "time.step=2e-5 s", "--set", "tester.diameter=60 mm", "--set", "tester.length=20 mm",
+              "--set", "tester.baffle_height=12 mm", "--set", "tester.speed=180 rpm", "--set", "time.settle_limit=0.1 s", "--set", "time.spin_up=0.1 s",
+              "--set", "time.measure=0.7 s", "--set", "output.paraview=false", "--set", "output.picture_width=200"]
+
+    def test_tester_writes_every_result_with_the_same_bits_for_one_and_two_threads(self):
+        file = self.new_case("tester")
+        hashes = set()
+        for threads in ("1", "2"):
+            result = self.succeeds("--threads", threads, "tester", file, *self.TESTER, "-o", "out-" + threads)
+            hashes.add(self.state_hash(result))
+        self.assertEqual(len(hashes), 1)
+        for name in (*RESULTS, "case.resolved.toml", "tester.png", *(f"cloud_{45 * m:03}.png" for m in range(8))):
+            self.assertTrue(os.path.getsize(self.path("out-1", name)) > 0, name)
+        self.assertEqual(self.read("out-1/observables.json"), self.read("out-2/observables.json"))
+        values = {one["name"]: one["value"] for one in strict_json(self.read("out-1/observables.json"))["values"]}
+        self.assertAlmostEqual(values["turns_measured"], 2.0, delta=1e-6)
+
     def test_a_case_of_another_rig_names_the_verb(self):
         self.fails(2, "fill", self.new_case("pile"), says=["pile", "pelletlab pile"])
 
@@ -115,7 +132,7 @@ class Runs(PelletlabTest):
                 self.take_clump()
                 shutil.copy(os.path.join(SOURCE, "examples", name), self.path(name))
                 rig = re.search(r'(?m)^rig\s*=\s*"(\w+)"', self.read(name)).group(1)
-                verb, setting = {"tube": ("fill", SMALL), "drum": ("drum", SMALL_DRUM), "pile": ("pile", SMALL_PILE)}[rig]
+                verb, setting = {"tube": ("fill", SMALL), "drum": ("drum", SMALL_DRUM), "pile": ("pile", SMALL_PILE), "tester": ("tester", SMALL_DRUM)}[rig]
                 self.succeeds(verb, name, *setting, "--set", "pellet.clump_file=pellet.clump.toml", "-o", "out-" + name)
 
 

@@ -5,7 +5,7 @@ import re
 from harness import BAD_INPUT, USAGE, PelletlabTest
 
 VERBS = [["shape"], ["shape", "export"], ["shape", "import"], ["shape", "compare"], ["shape", "pareto"], ["shape", "family"],
-         ["fill"], ["drum"], ["pile"], ["demo"],
+         ["fill"], ["drum"], ["pile"], ["tester"], ["demo"],
          ["observe"], ["observe", "tube"], ["observe", "pile"], ["observe", "drum"],
          ["mesh"], ["mesh", "check"], ["mesh", "make"], ["mesh", "assets"],
          ["case"], ["case", "new"], ["case", "check"], ["case", "schema"], ["case", "reference"],
@@ -24,7 +24,7 @@ class Usage(PelletlabTest):
 
     def test_help_lists_every_verb_and_shows_the_chain(self):
         text = self.succeeds("--help").out
-        for verb in ("shape", "fill", "drum", "pile", "observe", "demo", "mesh", "case", "diagnose"):
+        for verb in ("shape", "fill", "drum", "pile", "tester", "observe", "demo", "mesh", "case", "diagnose"):
             self.assertRegex(text, rf"(?m)^\s+{verb}\b")
         self.assertIn("pelletlab shape", text)
 
@@ -48,7 +48,7 @@ class Usage(PelletlabTest):
         self.fails(USAGE, "case", "new", "tube", "--colour", "red", says="--colour")
 
     def test_missing_argument(self):
-        for verb in ("shape", "fill", "drum", "pile"):
+        for verb in ("shape", "fill", "drum", "pile", "tester"):
             self.fails(USAGE, verb, says="required")
 
     def test_numbers_out_of_range(self):

@@ -1,0 +1,135 @@
+#include "experiments/attrition_tester.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "meshes/makers.hpp"
+#include "meshes/read_mesh.hpp"
+#include "observables/tester.hpp"
+#include "packing/lying_vessel.hpp"
+#include "packing/run_figures.hpp"
+#include "packing/stage.hpp"
+
+namespace pelletlab::experiments {
+
+namespace {
+
+constexpr double full_turn = 2.0 * std::numbers::pi;
+constexpr double watch_interval = 0.001;  // [s]
+constexpr double sparse = 10.0;           // frames before the measurement are stored at this many times frame_interval
+
+double turn_time(const Case& c) {
+    return full_turn / std::abs(c.tester.speed);
+}
+
+/// Whole turns in time.measure; a measurement shorter than a turn stays as it is, and its status says so.
+double measured_time(const Case& c) {
+    const double turns = std::floor(c.time.measure / turn_time(c) + 1e-9);
+    return turns >= 1.0 ? turns * turn_time(c) : c.time.measure;
+}
+
+TriangleMesh baffle_mesh(const Case& c) {
+    const TesterRig& t = c.tester;
+    // A drum that turns about −y is mirrored: its baffle's angle grows the other way round.
+    if (t.baffle_mesh_file.empty())
+        return meshes::make_baffle(t.diameter, t.length, t.baffle_height, t.baffle_thickness, t.speed < 0.0 ? -t.baffle_start : t.baffle_start);
+    const std::string file = (std::filesystem::path(c.folder) / t.baffle_mesh_file).string();
+    TriangleMesh mesh = meshes::read_mesh(file, t.mesh_unit);
+    const Box box = bounding_box(mesh);
+    const double reach = 1.1 * std::hypot(t.diameter, t.length) / 2.0;
+    if (box.min().cwiseAbs().maxCoeff() > reach || box.max().cwiseAbs().maxCoeff() > reach)
+        throw bad_input("the baffle mesh reaches out of the tester", "move the mesh there, or correct tester.mesh_unit", {file});
+    return mesh;
+}
+
+/// Walls and the room for the loose pellets, which the baffle must not reach into.
+std::vector<solver::WallDefinition> tester_walls(const Case& c, const packing::InsertionRegion& region) {
+    const TesterRig& t = c.tester;
+    std::vector<solver::WallDefinition> walls = packing::lying_walls(c, {"tester", t.diameter, t.length, t.facets, t.mesh_file, t.mesh_unit, t.material});
+    if (t.baffle_height <= 0.0 && t.baffle_mesh_file.empty()) return walls;
+    TriangleMesh baffle = baffle_mesh(c);
+    if (bounding_box(baffle).min().z() < region.ceiling)
+        throw bad_input("the baffle reaches into the room of the loose pellets",
+                        "turn it up with tester.baffle_start (\"180 deg\": at the top), or use fewer pellets");
+    walls.push_back(packing::define_wall(c, "baffle", std::move(baffle), t.material));
+    return walls;
+}
+
+void start_rotation(solver::Simulation& simulation, double speed) {
+    for (std::size_t wall = 0; wall < simulation.definition().walls.size(); ++wall) {
+        solver::WallMotion motion = simulation.definition().walls[wall].motion;  // keeps a vibration
+        motion.axis = Vec3::UnitY(), motion.rotation_speed = speed;
+        simulation.set_wall_motion(wall, motion);
+    }
+}
+
+}  // namespace
+
+packing::RunResult run_tester(const Case& c, const packing::RunInputs& inputs, const std::function<packing::FrameSink(const TrajectoryHeader&)>& open_sink,
+                              const ProgressSink& progress, const packing::RunKeeping& keeping) {
+    if (c.rig != Rig::tester) throw bad_input("the case '" + c.name + "' is not an attrition tester", "set rig = \"tester\"");
+    if (c.pellet.count == 0) throw bad_input("pellet.count is 0: a tester needs a number of pellets", "set pellet.count");
+    solver::SimulationDefinition definition = packing::define_simulation(c, inputs, {});
+    const RigidTemplate& pellet = definition.templates.front();
+    const packing::InsertionRegion region = packing::lens_region(pellet, c.pellet.count, c.insertion.packing_fraction, c.tester.diameter, c.tester.length);
+    definition.walls = tester_walls(c, region);
+    solver::Simulation simulation(std::move(definition));
+    if (!keeping.from)
+        simulation.add_bodies(
+            packing::loose_cloud(simulation.definition().templates.front(), c.pellet.count, region, c.seed, {0.0, 0.0, -c.insertion.fall_speed}));
+
+    Trajectory measured;
+    packing::FrameSink stored;
+    bool measuring = false;
+    packing::Course course(
+        simulation,
+        [&](const Frame& frame) {
+            if (stored) stored(frame);
+            if (measuring) measured.frames.push_back(frame);
+        },
+        progress, keeping);
+    measured.head = packing::trajectory_header(c, inputs, simulation);
+    if (open_sink) stored = open_sink(measured.head);
+    if (!course.is_catching_up()) course.store(packing::capture_frame(simulation));
+    packing::settle(course, simulation, c, sparse * c.output.frame_interval);
+
+    packing::Stage spin_up;
+    spin_up.name = "spinning up";
+    spin_up.duration = c.time.spin_up;
+    spin_up.frame_interval = sparse * c.output.frame_interval;
+    spin_up.watch_interval = watch_interval;
+    if (!course.is_catching_up()) start_rotation(simulation, c.tester.speed);
+    course.run(spin_up);
+
+    packing::Stage measure;
+    measure.name = "measuring";
+    measure.duration = measured_time(c);
+    measure.frame_interval = c.output.frame_interval;
+    measure.watch_interval = watch_interval;
+    measure.memory = {simulation.time(), static_cast<double>(course.frames_stored())};  // its first time, its first frame
+    if (course.is_catching_up()) {
+        for (auto k = static_cast<std::size_t>(keeping.from->memory.at(1)); k < course.frames_stored(); ++k) measured.frames.push_back(course.stored_frame(k));
+    }
+    measuring = true;
+    course.run(measure);
+
+    const TimeWindow window{measure.memory.at(0), measure.memory.at(0) + measure.duration};
+    const double spun = static_cast<double>(packing::steps_in(c.time.spin_up, c.time.step)) * c.time.step;
+    const double turned = c.time.spin_up > 0.0 ? spun : 0.0;
+    packing::RunResult result;
+    result.observables = observables::measure_tester(measured,
+                                                     {0.5 * c.tester.diameter, c.tester.length, c.tester.baffle_height, c.tester.speed, c.tester.baffle_start,
+                                                      window.begin - turned, c.measurement.velocity_grid},
+                                                     window);
+    packing::add_contact_figures(result.observables, simulation, course.meter);
+    result.state_hash = simulation.state_hash();
+    result.steps = course.meter.steps;
+    result.wall_seconds = course.meter.wall_seconds;
+    result.pellet_steps_per_second = course.meter.pellet_steps_per_second(simulation.bodies().size());
+    return result;
+}
+
+}  // namespace pelletlab::experiments

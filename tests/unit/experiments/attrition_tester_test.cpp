@@ -1,0 +1,125 @@
+#include "experiments/attrition_tester.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "meshes/makers.hpp"
+#include "meshes/read_mesh.hpp"
+#include "tests/unit/observables/documented.hpp"
+#include "tests/unit/observables/find.hpp"
+#include "tests/unit/packing/small_case.hpp"
+
+using namespace pelletlab;
+using namespace pelletlab::experiments;
+using pelletlab::small_case::dumbbell_inputs;
+
+namespace {
+
+Case small_tester(std::uint32_t count = 60) {
+    Case c = small_case::base_case();
+    c.rig = Rig::tester;
+    c.pellet.count = count;
+    c.tester.diameter = 0.05;
+    c.tester.length = 0.012;
+    c.tester.baffle_height = 0.012;
+    c.tester.baffle_thickness = 0.001;
+    c.tester.speed = 12.0;
+    c.tester.facets = 48;
+    c.time.settle_limit = 0.1;
+    c.time.spin_up = 0.1;
+    c.time.measure = 1.06;  // two turns are 1.0472 s
+    c.output.frame_interval = 0.0073;
+    c.measurement.velocity_grid = 0.005;
+    return c;
+}
+
+}  // namespace
+
+TEST(AttritionTester, LiftsPelletsOnTheBaffleAndDropsThem) {
+    const Case c = small_tester();
+    std::vector<std::string> walls;
+    Frame last;
+    const auto result = run_tester(c, dumbbell_inputs(),
+                                   [&](const TrajectoryHeader& header) {
+                                       for (const WallShape& wall : header.walls) walls.push_back(wall.name);
+                                       return packing::FrameSink([&](const Frame& frame) { last = frame; });
+                                   },
+                                   {});
+    expect_documented(result.observables);
+    EXPECT_EQ(walls, wall_names(c)) << "the names that contact rows may have";
+    EXPECT_EQ(result.observables.status, "complete");
+    EXPECT_NEAR(find(result.observables, "turns_measured").value, 2.0, 1e-9);
+    EXPECT_EQ(result.observables.maps.size(), 8u);
+    // A baffle of a quarter of the diameter lifts a good part of 60 pellets and loses them somewhere on the way up or over the top.
+    EXPECT_GT(find(result.observables, "baffle_load_largest").value, 5.0);
+    EXPECT_GT(find(result.observables, "release_angle").value, 45.0);
+    EXPECT_LT(find(result.observables, "release_angle").value, 270.0);
+    // The walls turn together, by ω t since the rotation began.
+    EXPECT_TRUE(last.wall_poses[3].orientation.isApprox(last.wall_poses[0].orientation, 1e-12));
+}
+
+TEST(AttritionTester, SameBitsForOneAndTwoThreadsAndFromAnyCheckpoint) {
+    Case c = small_tester(40);
+    c.time.settle_limit = 0.05;
+    c.time.spin_up = 0.05;
+    c.time.measure = 0.55;
+    std::vector<Frame> frames;
+    std::vector<packing::RunCheckpoint> checkpoints;
+    packing::RunKeeping keeping;
+    int asked = 0;
+    keeping.due = [&] { return ++asked % 130 == 0; };
+    keeping.keep = [&](const packing::RunCheckpoint& checkpoint) { checkpoints.push_back(checkpoint); };
+    set_thread_count(1);
+    const auto whole = run_tester(
+        c, dumbbell_inputs(), [&](const TrajectoryHeader&) { return packing::FrameSink([&](const Frame& frame) { frames.push_back(frame); }); }, {}, keeping);
+    set_thread_count(2);
+    ASSERT_GE(checkpoints.size(), 4u);
+    for (std::size_t k = 0; k <= checkpoints.size(); ++k) {
+        packing::RunKeeping resume;  // the last one begins at the beginning
+        if (k < checkpoints.size()) resume.from = checkpoints[k];
+        resume.stored_frame = [&](std::size_t frame) { return frames.at(frame); };
+        const auto again = run_tester(c, dumbbell_inputs(), {}, {}, resume);
+        EXPECT_EQ(again.state_hash, whole.state_hash);
+        ASSERT_EQ(again.observables.values.size(), whole.observables.values.size());
+        for (std::size_t n = 0; n < whole.observables.values.size(); ++n) {
+            const Observable &a = whole.observables.values[n], &b = again.observables.values[n];
+            EXPECT_TRUE(a.value == b.value || (std::isnan(a.value) && std::isnan(b.value))) << a.name;
+        }
+        ASSERT_EQ(again.observables.profiles.size(), whole.observables.profiles.size());
+        for (std::size_t n = 0; n < whole.observables.profiles.size(); ++n)
+            EXPECT_EQ(again.observables.profiles[n].axis, whole.observables.profiles[n].axis) << whole.observables.profiles[n].name;
+    }
+    set_thread_count(0);
+}
+
+TEST(AttritionTester, TakesTheUsersOwnDrumAndBaffle) {
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("pelletlab_tester_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder);
+    Case c = small_tester(20);
+    c.time.measure = 0.53;
+    c.folder = folder.string();
+    meshes::write_stl(meshes::joined(meshes::make_drum_shell(0.05, 0.012, 40),
+                                     meshes::joined(meshes::make_drum_end(0.05, -0.006, true, 40), meshes::make_drum_end(0.05, 0.006, false, 40))),
+                      folder / "drum.stl", "mm");
+    meshes::write_stl(meshes::make_baffle(0.05, 0.012, 0.012, 0.002, c.tester.baffle_start), folder / "baffle.stl", "mm");
+    c.tester.mesh_file = "drum.stl";
+    c.tester.baffle_mesh_file = "baffle.stl";
+    c.tester.mesh_unit = "mm";
+    EXPECT_GT(find(run_tester(c, dumbbell_inputs(), {}, {}).observables, "baffle_load_largest").value, 0.0);
+    c.tester.mesh_unit = "m";
+    EXPECT_THROW(run_tester(c, dumbbell_inputs(), {}, {}), Error) << "a drum of 50 m";
+    std::filesystem::remove_all(folder);
+}
+
+TEST(AttritionTester, RefusesABaffleAmongTheLoosePellets) {
+    Case c = small_tester();
+    c.tester.baffle_start = 0.0;
+    EXPECT_THROW(run_tester(c, dumbbell_inputs(), {}, {}), Error);
+    c.rig = Rig::drum;
+    EXPECT_THROW(run_tester(c, dumbbell_inputs(), {}, {}), Error);
+}
