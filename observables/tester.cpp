@@ -113,16 +113,15 @@ Load baffle_load(const FrameSource& trajectory, const std::vector<Place>& places
     const auto bins = static_cast<std::size_t>(std::max(1.0, std::floor(full_turn / std::max(widest_bin, spacing) + 1e-6)));
     Load load;
     for (std::size_t b = 0; b < bins; ++b) load.angle.push_back((static_cast<double>(b) + 0.5) * full_turn / static_cast<double>(bins));
-    const double first_turn = std::floor(places.front().angle / full_turn);
-    std::vector<std::vector<double>> count;
+    const double first = places.front().angle, spanned = (places.back().angle - first + spacing) / full_turn;  // a frame stands for the way to the next
+    const auto rows = static_cast<std::size_t>(std::max(1.0, std::floor(spanned + 0.01)));
+    load.of_turn.assign(rows, std::vector<double>(bins, 0.0));
+    std::vector<std::vector<double>> count = load.of_turn;
     for (const Place& place : places) {
-        const double turns = place.angle / full_turn, turn = std::floor(turns);
-        const auto row = static_cast<std::size_t>(turn - first_turn);
-        if (row >= load.of_turn.size()) {
-            load.of_turn.resize(row + 1, std::vector<double>(bins, 0.0));
-            count.resize(row + 1, std::vector<double>(bins, 0.0));
-        }
-        const std::size_t bin = std::min(bins - 1, static_cast<std::size_t>((turns - turn) * static_cast<double>(bins)));
+        const auto row = static_cast<std::size_t>(std::max(0.0, (place.angle - first) / full_turn + 1e-9));
+        if (row >= rows) continue;  // of a turn that the window cuts off
+        const double turns = place.angle / full_turn + 1e-7;  // rounding must not put a frame on an edge into the bin before
+        const std::size_t bin = std::min(bins - 1, static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(bins)));
         load.of_turn[row][bin] += static_cast<double>(detail::carried_by_baffle(trajectory.frame(place.frame), t, place.angle));
         count[row][bin] += 1.0;
     }

@@ -13,6 +13,7 @@ namespace pelletlab::packing {
 namespace {
 
 constexpr double dense = 0.55;      // packing fraction that room is planned with
+constexpr double loose = 0.45;      // and that of the loosest bed that must find room
 constexpr double clear = 1.1;       // pellets have fallen so many layers before the next ones leave the sieve
 constexpr double elbow_room = 1.5;  // sites of the closest lattice a pellet in the sieve's layer
 constexpr int most_layers = 6;
@@ -46,7 +47,14 @@ FillPlan plan_cloud(const Case& c, const RigidTemplate& pellet, FillPlan plan) {
 }
 
 FillPlan plan_sieve(const Case& c, const RigidTemplate& pellet, FillPlan plan) {
+    if (!(c.gravity.norm() > 0.0)) throw bad_input("nothing falls from a sieve without gravity", "set gravity, or another insertion.way");
     const double sieve = c.insertion.sieve_height > 0.0 ? c.insertion.sieve_height : 2.0 * plan.bed + above_bed;
+    const double lowest = plan.bed * dense / loose + 2.0 * pellet.bounding_radius;
+    if (sieve < lowest) {
+        char text[160];
+        std::snprintf(text, sizeof text, "the sieve at %.4g mm would be buried: the bed may rise to %.4g mm", 1e3 * sieve, 1e3 * lowest);
+        throw bad_input(text, "raise insertion.sieve_height or leave it at 0, or use fewer pellets");
+    }
     double each = 0.0, most = 0.0;
     // What leaves the sieve together lies in one layer of bounding spheres, or in a few where the rate asks for more.
     for (int layers = 1; layers <= most_layers; ++layers) {
@@ -79,13 +87,13 @@ FillPlan plan_batches(const Case& c, const RigidTemplate& pellet, FillPlan plan)
     const std::uint32_t batches = std::min(c.insertion.batches, c.pellet.count);
     for (std::uint32_t k = 0; k < batches; ++k) plan.rounds.push_back(c.pellet.count / batches + (k < c.pellet.count % batches ? 1 : 0));
     plan.region = upright_region(pellet, plan.rounds.front(), c.insertion.packing_fraction, 0.5 * c.tube.diameter, 0.0);
-    plan.top = plan.bed * dense / 0.45 + 4.0 * pellet.bounding_radius + plan.region.upper;  // the last batch above a loose bed
+    plan.top = plan.bed * dense / loose + 4.0 * pellet.bounding_radius + plan.region.upper;  // the last batch above a loose bed
     return plan;
 }
 
 FillPlan plan_funnel(const Case& c, const RigidTemplate& pellet, FillPlan plan) {
     plan.rounds = {c.pellet.count};
-    plan.top = plan.bed * dense / 0.45 + 4.0 * pellet.bounding_radius;
+    plan.top = plan.bed * dense / loose + 4.0 * pellet.bounding_radius;
     const double rim = c.tube.height > 0.0 ? c.tube.height : plan.top;
     plan.outlet = c.funnel.outlet_height > 0.0 ? c.funnel.outlet_height : rim + above_rim;
     Funnel funnel = make_funnel(c, pellet, c.tube.material, plan.outlet);
@@ -97,7 +105,7 @@ FillPlan plan_funnel(const Case& c, const RigidTemplate& pellet, FillPlan plan) 
 void move_tube(solver::Simulation& simulation, const std::vector<solver::MotionRow>& table) {
     const auto& walls = simulation.definition().walls;
     for (std::size_t k = 0; k < walls.size(); ++k) {
-        if (walls[k].name != "shell" && walls[k].name != "floor") continue;
+        if (walls[k].name == "funnel" || walls[k].name == "shutter") continue;
         solver::WallMotion motion = walls[k].motion;  // keeps a vibration
         motion.table = table;
         simulation.set_wall_motion(k, motion);
@@ -136,9 +144,11 @@ void add_round(solver::Simulation& simulation, const Case& c, const FillPlan& pl
     if (count == 0) return;
     const RigidTemplate& pellet = simulation.definition().templates.front();
     InsertionRegion region = plan.region;
+    double top = 0.0;
+    for (const Vec3& p : simulation.bodies().position) top = std::max(top, p.z() + pellet.bounding_radius);
+    if (plan.round_time > 0.0 && top > region.lower)
+        throw bad_input("a pellet has come up into the sieve where the next ones begin to fall", "raise insertion.sieve_height");
     if (plan.round_time == 0.0 && round > 0) {  // a batch falls on the bed that lies there
-        double top = 0.0;
-        for (const Vec3& p : simulation.bodies().position) top = std::max(top, p.z() + pellet.bounding_radius);
         const double shift = top + pellet.bounding_radius - region.lower;
         region.lower += shift, region.upper += shift;
     }
@@ -171,6 +181,7 @@ SettleStatus fill(Course& course, solver::Simulation& simulation, const Case& c,
 }
 
 SettleStatus tap(Course& course, solver::Simulation& simulation, const Case& c, SettleStatus status) {
+    if (c.insertion.taps == 0) return status;
     const double period = 1.0 / c.insertion.tap_frequency;
     std::vector<solver::MotionRow> swing;
     for (int k = 0; k <= rows_of_a_tap; ++k) {

@@ -21,13 +21,13 @@ struct FillPlan {
 /// Throws Error(bad_input) when the tube, the sieve or the funnel has no room for it.
 FillPlan plan_fill(const Case& c, const RigidTemplate& pellet);
 
-/// Adds the pellets of one round: the first before the run begins, the others in fill().
+/// Adds the pellets of one round: the first before the run begins, the others in fill(). Throws Error(bad_input) when rain finds a pellet in the sieve.
 void add_round(solver::Simulation& simulation, const Case& c, const FillPlan& plan, std::size_t round);
 
 /// Everything from the first round to rest. A fill that does not come to rest is a result with that status.
 SettleStatus fill(Course& course, solver::Simulation& simulation, const Case& c, const FillPlan& plan);
 
-/// insertion.taps taps of the walls «shell» and «floor»: each lifts them once by ½ A (1 − cos 2π f t) and lets the bed come to rest. `status` is that before.
+/// insertion.taps taps of the tube, standing or lying (not of the funnel): each lifts its walls once by ½ A (1 − cos 2π f t) and lets the bed come to rest. `status` is that before.
 SettleStatus tap(Course& course, solver::Simulation& simulation, const Case& c, SettleStatus status);
 
 }  // namespace pelletlab::packing

@@ -1,25 +1,18 @@
 #include "packing/lying_vessel.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "meshes/makers.hpp"
 #include "meshes/read_mesh.hpp"
+#include "observables/lying_bed.hpp"
 
 namespace pelletlab::packing {
 
 namespace {
 
 constexpr double elbow_room = 1.2;  // sites of the closest lattice a pellet: with less the cloud stays a crystal
-
-/// Area of the part of a circle below z = level [m²].
-double segment_area(double radius, double level) {
-    const double z = std::clamp(level / radius, -1.0, 1.0);
-    return radius * radius * (std::numbers::pi - std::acos(z) + z * std::sqrt(1.0 - z * z));
-}
 
 /// The user's own vessel: it must be where the measurement expects it.
 TriangleMesh read_vessel_mesh(const Case& c, const LyingVessel& vessel) {
@@ -43,7 +36,7 @@ InsertionRegion lens_region(const RigidTemplate& pellet, std::uint32_t count, do
     double below = -region.radius, above = region.radius;
     for (int halving = 0; halving < 60; ++halving) {
         const double middle = 0.5 * (below + above);
-        (segment_area(region.radius, middle) < wanted ? below : above) = middle;
+        (observables::segment_area(region.radius, middle) < wanted ? below : above) = middle;
     }
     region.ceiling = above + 2.0 * pellet.bounding_radius;
     while (region.ceiling < region.radius && cloud_capacity(pellet, region) < elbow_room * count) region.ceiling += 0.5 * pellet.bounding_radius;

@@ -74,6 +74,25 @@ TEST(Tester, FindsTheAngleAtWhichTheBaffleIsEmptied) {
     }
 }
 
+TEST(Tester, TurnsAreCountedFromTheBeginningOfTheWindow) {
+    // A window that begins at 200°: two whole turns and 30° more, which do not count. Three pellets fall off earlier in the second of them.
+    Trajectory trajectory = carried_until(2.0, 1.0);
+    const auto begin = static_cast<std::size_t>(200 / 5), end = begin + 2 * 72 + 6;
+    for (std::size_t k = begin + 72 + 40; k < trajectory.frames.size(); ++k)  // at 40° of the second turn
+        if (k < begin + 2 * 72)
+            for (std::size_t n = 0; n < 3; ++n) trajectory.frames[k].velocities[n] = Vec3(1.0, 0.0, 0.0);
+    const Observables result = measure_tester(trajectory, geometry(), {static_cast<double>(begin) / 72.0, static_cast<double>(end) / 72.0});
+    const Profile& load = profile_of(result, "baffle_load");
+    ASSERT_EQ(load.axis.size(), 72u);
+    EXPECT_NEAR(load.value[10], 0.5 * (10.0 + 7.0), 1e-9) << "52.5°, once in each turn";
+    EXPECT_NEAR(load.standard_error[10], 1.5, 1e-9) << "s / √2 of 10 and 7";
+    // The load falls below nine tenths at 113° in the first turn, between 37.5° and 42.5° in the second and in the mean: the jackknife over two turns.
+    const double mean = 37.5 + 5.0 * 1.0 / 1.5, without_first = 37.5 + 5.0 * 1.0 / 3.0, without_second = 112.5 + 5.0 * 1.0 / 10.0;
+    EXPECT_NEAR(find(result, "release_angle_begin").value, mean, 1e-6);
+    EXPECT_NEAR(find(result, "release_angle_begin").standard_error, std::sqrt(0.5 * (std::pow(without_first - mean, 2) + std::pow(without_second - mean, 2))),
+                1e-6);
+}
+
 TEST(Tester, MapsHoldAllThePelletsVolume) {
     const TesterGeometry t = geometry();
     const Observables result = measure_tester(carried_until(2.0, 1.0), t, {0.0, 3.0});

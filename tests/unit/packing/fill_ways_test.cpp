@@ -98,6 +98,12 @@ TEST(FillWays, TheSieveKeepsItsRate) {
     Case low = c;
     low.tube.height = 0.02;
     EXPECT_THROW(run_of(low), Error) << "the sieve does not fit";
+    Case buried = c;
+    buried.insertion.sieve_height = 0.003;
+    EXPECT_THROW(run_of(buried), Error) << "lower than the bed will rise";
+    Case afloat = c;
+    afloat.gravity = Vec3::Zero();
+    EXPECT_THROW(run_of(afloat), Error) << "nothing falls";
 }
 
 TEST(FillWays, BatchesComeToRestOneAfterTheOther) {
@@ -121,6 +127,23 @@ TEST(FillWays, TapsLiftTheTubeAndSetItDown) {
     EXPECT_NEAR(run.frames.back().wall_poses[0].position.z(), 0.0, 1e-12);
     EXPECT_NEAR(run.frames.back().wall_poses[1].position.z(), 0.0, 1e-12) << "the floor goes with the shell";
     EXPECT_NE(run.result.state_hash, still.result.state_hash);
+}
+
+TEST(FillWays, TapsLiftTheEndPlatesOfALyingTubeAsWell) {
+    Case c = tube("cloud", 20);
+    c.tube.lying = true;
+    c.tube.height = c.tube.diameter = 0.02;
+    c.insertion.taps = 1;
+    c.insertion.tap_frequency = 25.0;
+    c.insertion.tap_amplitude = 0.002;
+    c.output.frame_interval = 0.004;
+    const Filled run = run_of(c);
+    bool lifted = false;
+    for (const Frame& frame : run.frames) {
+        lifted = lifted || frame.wall_poses[0].position.z() > 0.001;
+        for (const Pose& pose : frame.wall_poses) EXPECT_EQ(pose.position.z(), frame.wall_poses[0].position.z());
+    }
+    EXPECT_TRUE(lifted);
 }
 
 TEST(FillWays, ALyingTubeHasAFillLevel) {
