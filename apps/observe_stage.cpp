@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "apps/print_observables.hpp"
@@ -17,8 +18,10 @@
 #include "io/observables_file.hpp"
 #include "observables/bed.hpp"
 #include "observables/drum.hpp"
+#include "observables/lying_bed.hpp"
 #include "observables/pile.hpp"
 #include "observables/steady.hpp"
+#include "observables/tester.hpp"
 #include "report/pictures.hpp"
 
 namespace pelletlab::apps {
@@ -110,14 +113,75 @@ void write_map(const Observables& observables, const char* map, double circle, c
 
 std::string ObserveRequest::settings() const {
     std::string text = trajectory.settings();
-    for (const std::string* option : {&diameter, &length, &speed, &floor, &ceiling, &from, &until, &grid, &view_depth, &camera_grid, &slab})
+    for (const std::string* option :
+         {&diameter, &length, &speed, &floor, &ceiling, &baffle_height, &baffle_angle, &from, &until, &grid, &view_depth, &camera_grid, &slab})
         text += *option + "|";
-    return text + fmt::format("{}|{}", pellets_each, pictures);
+    return text + fmt::format("{}|{}|{}", pellets_each, pictures, lying);
+}
+
+namespace {
+
+void observe_lying_tube(const ObserveRequest& request, const OpenedTrajectory& opened, const Case* c) {
+    const auto known = [c](double TubeRig::*member) { return c ? std::optional(c->tube.*member) : std::nullopt; };
+    observables::LyingGeometry tube;
+    tube.radius = 0.5 * needed(request.diameter, dimension::length, known(&TubeRig::diameter), "--diameter \"240 mm\"", "the tube's inner diameter");
+    tube.length = needed(request.length, dimension::length, known(&TubeRig::height), "--length \"90 mm\"", "the lying tube's inner length");
+    tube.height_grid = given(request.grid, dimension::length, c ? c->measurement.height_grid : tube.height_grid);
+    finish(request, "tube", opened, [&] { return observables::measure_lying_bed(*opened.frames, tube); }, {});
+}
+
+/// Angle of the baffle [rad] at the last frame of a run of our own: where it was put, and how far its wall has turned since.
+std::optional<double> baffle_angle_of_run(const Case* c, const FrameSource& frames) {
+    if (!c || frames.frame_count() == 0) return std::nullopt;
+    const Frame last = frames.frame(frames.frame_count() - 1);
+    if (last.wall_poses.empty()) return std::nullopt;
+    const Quat& turn = last.wall_poses.back().orientation;  // all walls turn together, about y
+    const double angle = 2.0 * std::atan2(turn.y(), turn.w());
+    return c->tester.baffle_start + (c->tester.speed < 0.0 ? -angle : angle);
+}
+
+/// What a run measured: whole turns, or all of a measurement shorter than one; in whole steps.
+double measured_time(const Case& c) {
+    const double turn = 2.0 * std::numbers::pi / std::abs(c.tester.speed), turns = std::floor(c.time.measure / turn + 1e-9);
+    return std::round((turns >= 1.0 ? turns * turn : c.time.measure) / c.time.step) * c.time.step;
+}
+
+}  // namespace
+
+void observe_tester(const ObserveRequest& request) {
+    const OpenedTrajectory opened = open_for_observation(request.trajectory);
+    if (!opened.depth_known)
+        throw bad_input("the table has no coordinate along the tester's axis", "a tester needs all three coordinates", {request.trajectory.file.string()});
+    const Case* c = case_of(opened, Rig::tester);
+    const FrameSource& frames = *opened.frames;
+    const auto known = [c](double TesterRig::*member) { return c ? std::optional(c->tester.*member) : std::nullopt; };
+    observables::TesterGeometry tester;
+    tester.radius = 0.5 * needed(request.diameter, dimension::length, known(&TesterRig::diameter), "--diameter \"254 mm\"", "the tester's inner diameter");
+    tester.length = needed(request.length, dimension::length, known(&TesterRig::length), "--length \"152 mm\"", "the tester's inner length");
+    tester.baffle_height =
+        needed(request.baffle_height, dimension::length, known(&TesterRig::baffle_height), "--baffle-height \"51 mm\"", "the height of the baffle");
+    tester.rotation_speed = needed(request.speed, dimension::rotation_speed, known(&TesterRig::speed),
+                                   "--speed \"40 rpm\" (negative when it turns the other way)", "the tester's speed");
+    const std::optional<double> of_run = request.baffle_angle.empty() ? baffle_angle_of_run(c, frames) : std::nullopt;
+    tester.baffle_angle = needed(request.baffle_angle, dimension::angle, of_run, "--baffle-angle \"0 deg\", what it was at time 0", "the baffle's angle");
+    const double end = frames.frame_count() > 0 ? frames.time(frames.frame_count() - 1) : 0.0;
+    tester.angle_time = of_run ? end : 0.0;
+    tester.grid = given(request.grid, dimension::length, c ? c->measurement.velocity_grid : tester.grid);
+    const TimeWindow window = window_of(request, frames, c ? end - measured_time(*c) : frames.frame_count() > 0 ? frames.time(0) : 0.0);
+    finish(
+        request, "tester", opened, [&] { return observables::measure_tester(frames, tester, window); },
+        [&](const Observables& measured, const fs::path& folder) {
+            for (const FieldMap& map : measured.maps) write_map(measured, map.name.c_str(), 2.0 * tester.radius, folder / (map.name + ".png"));
+        });
 }
 
 void observe_tube(const ObserveRequest& request) {
     const OpenedTrajectory opened = open_for_observation(request.trajectory);
     const Case* c = case_of(opened, Rig::tube);
+    if (c ? c->tube.lying : request.lying) {
+        observe_lying_tube(request, opened, c);
+        return;
+    }
     observables::TubeGeometry tube;
     tube.radius = 0.5 * needed(request.diameter, dimension::length, c ? std::optional(c->tube.diameter) : std::nullopt, "--diameter \"52 mm\"",
                                "the tube's inner diameter");

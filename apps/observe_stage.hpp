@@ -12,7 +12,9 @@ namespace pelletlab::apps {
 struct ObserveRequest {
     TrajectoryRequest trajectory;
     std::string diameter, length, speed, floor, ceiling;  ///< of the rig
-    std::string from, until;                     ///< window of time
+    std::string baffle_height, baffle_angle;              ///< of a tester
+    bool lying = false;                                   ///< of a tube
+    std::string from, until;                              ///< window of time
     std::string grid, view_depth, camera_grid, slab;
     double pellets_each = 1.0;
     std::filesystem::path output;
@@ -25,5 +27,6 @@ struct ObserveRequest {
 void observe_tube(const ObserveRequest& request);
 void observe_drum(const ObserveRequest& request);
 void observe_pile(const ObserveRequest& request);
+void observe_tester(const ObserveRequest& request);
 
 }  // namespace pelletlab::apps

@@ -1,4 +1,4 @@
-// pelletlab observe tube|pile|drum TRAJECTORY
+// pelletlab observe tube|pile|drum|tester TRAJECTORY
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -41,12 +41,15 @@ void add_window(CLI::App* verb, ObserveRequest& request) {
 }
 
 void add_tube(CLI::App* observe) {
-    CLI::App* verb =
-        observe->add_subcommand("tube", "A bed in a vertical tube, at the last time\n  example: pelletlab observe tube out/tube/run.h5 -o out/tube-observed");
+    CLI::App* verb = observe->add_subcommand(
+        "tube", "A bed in a tube, standing or lying, at the last time\n  example: pelletlab observe tube out/tube/run.h5 -o out/tube-observed");
     const auto request = add_common(verb, observe_tube);
     verb->add_option("--diameter", request->diameter, "Inner diameter of the tube: \"52 mm\"; a run of pelletlab knows it");
     verb->add_option("--floor", request->floor, "Height of the floor; 0 when not given");
     verb->add_option("--grid", request->grid, "Cell of the top-surface grid: \"1 mm\"");
+    verb->add_flag("--lying", request->lying, "The tube of the table lies level along --axis, its centre in the origin; a run of pelletlab knows it");
+    verb->add_option("--length", request->length, "Inner length of a lying tube: \"90 mm\"");
+    verb->add_option("--axis", request->trajectory.axis, "Axis of the table along which a lying tube lies: y when not given")->group("For a table");
 }
 
 void add_pile(CLI::App* observe) {
@@ -78,6 +81,24 @@ void add_drum(CLI::App* observe) {
     verb->add_option("--camera-grid", request->camera_grid, "Cell of the camera's map: \"0.5 mm\"");
 }
 
+void add_tester(CLI::App* observe) {
+    CLI::App* verb =
+        observe->add_subcommand("tester",
+                                "An attrition tester: pellet cloud, load of the baffle, release angle\n"
+                                "  example: pelletlab observe tester tracks.csv --diameter \"254 mm\" --length \"152 mm\" --baffle-height \"51 mm\" "
+                                "--speed \"40 rpm\" --baffle-angle \"0 deg\" --pellet-diameter \"3.5 mm\" --unit mm --time-unit s");
+    const auto request = add_common(verb, observe_tester);
+    add_window(verb, *request);
+    verb->add_option("--diameter", request->diameter, "Inner diameter: \"254 mm\"; a run of pelletlab knows it, as the next four");
+    verb->add_option("--length", request->length, "Inner length: \"152 mm\"");
+    verb->add_option("--speed", request->speed, "\"40 rpm\", about the axis: seen along it, positive is clockwise with the baffle rising on the left");
+    verb->add_option("--baffle-height", request->baffle_height, "Of the baffle, from the shell inward: \"51 mm\"");
+    verb->add_option("--baffle-angle", request->baffle_angle, "Angle of the baffle at time 0: 0 at the bottom, growing with the turn");
+    verb->add_option("--axis", request->trajectory.axis, "Axis of the table along which one looks, from the front plate to the back: y when not given")
+        ->group("For a table");
+    verb->add_option("--grid", request->grid, "Cell of the maps: \"2 mm\"");
+}
+
 }  // namespace
 
 void add_observe_verb(CLI::App& app) {
@@ -87,6 +108,7 @@ void add_observe_verb(CLI::App& app) {
     add_tube(observe);
     add_pile(observe);
     add_drum(observe);
+    add_tester(observe);
 }
 
 }  // namespace pelletlab::apps

@@ -32,8 +32,8 @@ struct TrajectoryHeader {
     Provenance provenance;
 };
 
-/// One stored instant; all vectors have one entry a body, wall_poses one a wall. A body that was not seen at this instant (a lost track of a camera)
-/// has a NaN position, one whose velocity is not known a NaN velocity; a run of our own never has either.
+/// One stored instant; all vectors have one entry a body, wall_poses one a wall. A body that was not seen at this instant (a lost track of a camera, or a
+/// pellet that a run has not released yet) has a NaN position, one whose velocity is not known a NaN velocity.
 struct Frame {
     double time = 0.0;               ///< [s]
     std::vector<Vec3> positions;     ///< [m], centres of mass, world

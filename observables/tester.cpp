@@ -38,7 +38,7 @@ std::vector<Place> places_in(const FrameSource& trajectory, const TesterGeometry
     std::vector<Place> places;
     for (std::size_t k = 0; k < trajectory.frame_count(); ++k) {
         const double time = trajectory.time(k);
-        if (time < window.begin - 1e-9 || time > window.end + 1e-9) continue;
+        if (time < window.begin + 1e-9 || time > window.end + 1e-9) continue;  // without its begin: over whole turns that instant is the end once more
         places.push_back({k, t.baffle_angle + std::abs(t.rotation_speed) * (time - t.angle_time)});
     }
     if (places.empty()) throw bad_input("no frame lies in the time that is to be measured", "store frames more often, or measure longer");
@@ -119,7 +119,7 @@ Load baffle_load(const FrameSource& trajectory, const std::vector<Place>& places
     std::vector<std::vector<double>> count = load.of_turn;
     for (const Place& place : places) {
         const auto row = static_cast<std::size_t>(std::max(0.0, (place.angle - first) / full_turn + 1e-9));
-        if (row >= rows) continue;  // of a turn that the window cuts off
+        if (row >= rows) continue;                            // of a turn that the window cuts off
         const double turns = place.angle / full_turn + 1e-7;  // rounding must not put a frame on an edge into the bin before
         const std::size_t bin = std::min(bins - 1, static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(bins)));
         load.of_turn[row][bin] += static_cast<double>(detail::carried_by_baffle(trajectory.frame(place.frame), t, place.angle));

@@ -27,7 +27,8 @@ void add_round(solver::Simulation& simulation, const Case& c, const FillPlan& pl
 /// Everything from the first round to rest. A fill that does not come to rest is a result with that status.
 SettleStatus fill(Course& course, solver::Simulation& simulation, const Case& c, const FillPlan& plan);
 
-/// insertion.taps taps of the tube, standing or lying (not of the funnel): each lifts its walls once by ½ A (1 − cos 2π f t) and lets the bed come to rest. `status` is that before.
+/// insertion.taps taps of the tube, standing or lying (not of the funnel): each lifts its walls once by ½ A (1 − cos 2π f t) and lets the bed come to rest.
+/// `status` is that before.
 SettleStatus tap(Course& course, solver::Simulation& simulation, const Case& c, SettleStatus status);
 
 }  // namespace pelletlab::packing

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import time
 
-from harness import BAD_INPUT, INTERRUPTED, NUMERICAL, USAGE, PelletlabTest
+from harness import BAD_INPUT, INTERRUPTED, NUMERICAL, SMALL_TESTER, USAGE, PelletlabTest
 
 # A second or two of work, with frames often enough to lie on both sides of every checkpoint.
 FILL = ["--set", "pellet.count=60", "--set", "time.settle_limit=0.1 s", "--set", "time.rest_kinetic_energy=1e-300",
@@ -75,10 +75,7 @@ class RunsThatGoOn(PelletlabTest):
         pile = ["--set", "pellet.count=40", "--set", "time.step=2e-5 s", "--set", "funnel.top_diameter=30 mm", "--set", "funnel.outlet_diameter=16 mm",
                 "--set", "funnel.outlet_height=30 mm", "--set", "time.settle_limit=0.1 s", "--set", "pile.discharge_limit=0.6 s",
                 "--set", "output.pictures=false", "--set", "output.paraview=false"]
-        tester = ["--set", "pellet.count=60", "--set", "time.step=2e-5 s", "--set", "tester.diameter=60 mm", "--set", "tester.length=20 mm",
-                  "--set", "tester.baffle_height=12 mm", "--set", "tester.speed=180 rpm", "--set", "time.settle_limit=0.05 s", "--set", "time.spin_up=0.05 s",
-                  "--set", "time.measure=0.7 s", "--set", "output.pictures=false", "--set", "output.paraview=false"]
-        for verb, settings in (("pile", pile), ("tester", tester)):
+        for verb, settings in (("pile", pile), ("tester", SMALL_TESTER)):
             for folder in ("out", "whole"):
                 shutil.rmtree(self.path(folder), ignore_errors=True)
             file = self.new_case(verb)

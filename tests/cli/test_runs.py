@@ -9,7 +9,7 @@ import signal
 import time
 
 import bodies
-from harness import BAD_INPUT, INTERRUPTED, LONG, NUMERICAL, SMALL, SMALL_DRUM, SMALL_PILE, SOURCE, PelletlabTest
+from harness import BAD_INPUT, INTERRUPTED, LONG, NUMERICAL, SMALL, SMALL_DRUM, SMALL_PILE, SOURCE, TESTER, PelletlabTest
 
 RESULTS = ("run.h5", "observables.json", "stage.json")
 
@@ -64,15 +64,11 @@ class Runs(PelletlabTest):
         hashes = {self.state_hash(self.succeeds("--threads", n, "pile", file, *self.PILE, "--set", "output.pictures=false", "-o", f"out-{n}")) for n in ("1", "2")}
         self.assertEqual(len(hashes), 1)
 
-    TESTER = ["--set", "pellet.count=60", "--set", "time.step=2e-5 s", "--set", "tester.diameter=60 mm", "--set", "tester.length=20 mm",
-              "--set", "tester.baffle_height=12 mm", "--set", "tester.speed=180 rpm", "--set", "time.settle_limit=0.1 s", "--set", "time.spin_up=0.1 s",
-              "--set", "time.measure=0.7 s", "--set", "output.paraview=false", "--set", "output.picture_width=200"]
-
     def test_tester_writes_every_result_with_the_same_bits_for_one_and_two_threads(self):
         file = self.new_case("tester")
         hashes = set()
         for threads in ("1", "2"):
-            result = self.succeeds("--threads", threads, "tester", file, *self.TESTER, "-o", "out-" + threads)
+            result = self.succeeds("--threads", threads, "tester", file, *TESTER, "--set", "output.picture_width=200", "-o", "out-" + threads)
             hashes.add(self.state_hash(result))
         self.assertEqual(len(hashes), 1)
         for name in (*RESULTS, "case.resolved.toml", "tester.png", *(f"cloud_{45 * m:03}.png" for m in range(8))):

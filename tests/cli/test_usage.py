@@ -6,7 +6,7 @@ from harness import BAD_INPUT, USAGE, PelletlabTest
 
 VERBS = [["shape"], ["shape", "export"], ["shape", "import"], ["shape", "compare"], ["shape", "pareto"], ["shape", "family"],
          ["fill"], ["drum"], ["pile"], ["tester"], ["demo"],
-         ["observe"], ["observe", "tube"], ["observe", "pile"], ["observe", "drum"],
+         ["observe"], ["observe", "tube"], ["observe", "pile"], ["observe", "drum"], ["observe", "tester"],
          ["mesh"], ["mesh", "check"], ["mesh", "make"], ["mesh", "assets"],
          ["case"], ["case", "new"], ["case", "check"], ["case", "schema"], ["case", "reference"],
          ["diagnose"], ["diagnose", "audit"], ["diagnose", "plan"], ["diagnose", "run"], ["diagnose", "report"],
