@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "observables/detail/pellet_points.hpp"
+#include "observables/detail/resting_plate.hpp"
 #include "observables/detail/top_surface.hpp"
 #include "observables/statistics.hpp"
 
@@ -144,6 +145,8 @@ Observables measure_tube_bed(const FrameSource& trajectory, const TubeGeometry& 
     const double h95 = percentile(tops, 0.95);
     const double h100 = *std::max_element(tops.begin(), tops.end());
     const double h_mass = 2.0 * mean_centroid;
+    const detail::RestingPlate plate = detail::resting_plate(header, frame, bed.bodies, tube.radius);
+    const double h_plate = plate.height - tube.floor;
     const double core_volume = sum_over(bed, [&](std::size_t body) {
         const double z = bed.height_of(body);
         return z >= core_lower * h95 && z < core_upper * h95 ? bed.shape_of(body).volume : 0.0;
@@ -161,10 +164,13 @@ Observables measure_tube_bed(const FrameSource& trajectory, const TubeGeometry& 
     add("bed_height_h95", "mm", h95 / millimetre, "tube.h95");
     add("bed_height_h100", "mm", h100 / millimetre, "tube.h100");
     add("bed_height_mass", "mm", h_mass / millimetre, "tube.centre_of_mass");
+    add("bed_height_plate", "mm", h_plate / millimetre, "tube.plate");
+    add("plate_tilt", "deg", plate.tilt * 180.0 / pi, "tube.plate");
     add("packing_fraction_grid", "1", solid_volume / (area * h_grid), "tube.packing");
     add("packing_fraction_h95", "1", solid_volume / (area * h95), "tube.packing");
     add("packing_fraction_h100", "1", solid_volume / (area * h100), "tube.packing");
     add("packing_fraction_mass", "1", solid_volume / (area * h_mass), "tube.packing");
+    add("packing_fraction_plate", "1", solid_volume / (area * h_plate), "tube.packing");
     add("packing_fraction_core", "1", core_volume / (area * (core_upper - core_lower) * h95), "tube.packing_core");
     add("mean_centroid_height", "mm", mean_centroid / millimetre, "tube.centre_of_mass");
     if (const double alignment = mean_axis_alignment(bed); std::isfinite(alignment)) add("mean_axis_alignment", "1", alignment, "tube.axis_alignment");

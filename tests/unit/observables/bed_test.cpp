@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "core/error.hpp"
+#include "core/random.hpp"
 #include "tests/unit/observables/documented.hpp"
 #include "tests/unit/observables/synthetic.hpp"
 
@@ -139,4 +143,59 @@ TEST(TubeBed, RefusesWhatItCannotMeasure) {
     EXPECT_THROW(measure_tube_bed(outside, {10e-3, 0.0, 1e-3}), Error) << "no pellet inside";
     EXPECT_THROW(measure_tube_bed(outside, {0.0, 0.0, 1e-3}), Error) << "no radius";
     EXPECT_THROW(measure_tube_bed(Trajectory{}, {10e-3, 0.0, 1e-3}), Error) << "no frame";
+}
+
+TEST(TubeBed, APlateLiesOnThreePelletsThatEncloseTheAxis) {
+    const double r = 1e-3;
+    // Three spheres stand out of a flat bed. The plane that touches equal spheres is that of their centres, moved by r along its normal.
+    const std::array<Vec3, 3> high{Vec3(8e-3, 1e-3, 10e-3), Vec3(-5e-3, 6e-3, 12e-3), Vec3(-4e-3, -7e-3, 11e-3)};
+    Frame frame;
+    for (const Vec3& p : high) add_body(frame, p);
+    for (int i = -4; i <= 4; ++i)
+        for (int j = -4; j <= 4; ++j) add_body(frame, {2e-3 * i, 2e-3 * j, r});
+    // As high as the first and beside it towards the shell: below the plane, which rises towards the other two.
+    add_body(frame, {8.5e-3, 1.0e-3, 9.6e-3});
+    const Observables bed = measure_tube_bed(trajectory_of(sphere_pellet(r), {frame}), {15e-3, 0.0, 1e-3});
+    Vec3 normal = (high[1] - high[0]).cross(high[2] - high[0]).normalized();
+    if (normal.z() < 0.0) normal = -normal;
+    const double middle = high[0].z() + (high[0].x() * normal.x() + high[0].y() * normal.y()) / normal.z() + r / normal.z();
+    EXPECT_NEAR(value_of(bed, "bed_height_plate"), 1e3 * middle, 1e-4);  // the weight stands 1e-6 of the plate beside the axis
+    EXPECT_NEAR(value_of(bed, "plate_tilt"), std::acos(normal.z()) * 180.0 / pi, 1e-6);
+    EXPECT_NEAR(value_of(bed, "packing_fraction_plate") * value_of(bed, "bed_height_plate"),
+                value_of(bed, "packing_fraction_mass") * value_of(bed, "bed_height_mass"), 1e-9);
+}
+
+TEST(TubeBed, APlateOnAFlatBedLiesFlat) {
+    for (const bool spheres : {false, true}) {
+        const PelletShape pellet = spheres ? sphere_pellet(1e-3) : box_pellet(1e-3, 1e-3);
+        Frame frame;
+        for (int i = -6; i <= 6; ++i)
+            for (int j = -6; j <= 6; ++j) add_body(frame, {2e-3 * i, 2e-3 * j, 1e-3});
+        const Observables bed = measure_tube_bed(trajectory_of(pellet, {frame}), {14e-3, 0.0, 1e-3});
+        EXPECT_NEAR(value_of(bed, "bed_height_plate"), 2.0, 1e-5);
+        EXPECT_NEAR(value_of(bed, "plate_tilt"), 0.0, 1e-4);
+    }
+}
+
+TEST(TubeBed, APlateBalancesOnATiltedPlaneOfManyPellets) {
+    // Centres on a plane of slope (0.2, −0.1) and others at random below it.
+    const double r = 0.5e-3, a = 9e-3, b = 0.2, c = -0.1;
+    Frame frame;
+    for (std::uint64_t n = 0; n < 500; ++n) {
+        RandomStream random(3, n);
+        const double x = 0.018 * (random.uniform() - 0.5), y = 0.018 * (random.uniform() - 0.5);
+        add_body(frame, {x, y, a + b * x + c * y - (n % 5 == 0 ? 0.0 : 4e-3 * random.uniform())});
+    }
+    const Observables bed = measure_tube_bed(trajectory_of(sphere_pellet(r), {frame}), {15e-3, 0.0, 1e-3});
+    EXPECT_NEAR(value_of(bed, "bed_height_plate"), 1e3 * (a + r * std::sqrt(1.0 + b * b + c * c)), 1e-4);
+    EXPECT_NEAR(value_of(bed, "plate_tilt"), std::atan(std::hypot(b, c)) * 180.0 / pi, 1e-3);
+}
+
+TEST(TubeBed, APlateSlidesOffPelletsThatLieOnOneSide) {
+    Frame frame;
+    for (int i = 1; i <= 3; ++i)
+        for (int j = -1; j <= 1; ++j) add_body(frame, {3e-3 * i, 3e-3 * j, 1e-3});
+    const Observables bed = measure_tube_bed(trajectory_of(sphere_pellet(1e-3), {frame}), {15e-3, 0.0, 1e-3});
+    EXPECT_TRUE(std::isnan(value_of(bed, "bed_height_plate")));
+    EXPECT_TRUE(std::isnan(value_of(bed, "packing_fraction_plate")));
 }
