@@ -183,7 +183,7 @@ Observables measure_tester(const FrameSource& trajectory, const TesterGeometry& 
     result.case_name = trajectory.header().case_name;
     result.provenance = trajectory.header().provenance;
     const double turns = std::abs(tester.rotation_speed) * (window.end - window.begin) / full_turn;
-    if (turns < 2.0 - 1e-6) result.status = "too few turns";
+    if (turns < 2.0 - 1e-3) result.status = "too few turns";
     result.values.push_back({"turns_measured", "1", turns, not_known, window, "tester.turns"});
     for (std::size_t m = 0; m < baffle_angles; ++m)
         measure_angle(m, trajectory, frames_at(places, static_cast<double>(m) * full_turn / baffle_angles), shapes, tester, window, result);
