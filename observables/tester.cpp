@@ -185,8 +185,11 @@ Observables measure_tester(const FrameSource& trajectory, const TesterGeometry& 
     const double turns = std::abs(tester.rotation_speed) * (window.end - window.begin) / full_turn;
     if (turns < 2.0 - 1e-3) result.status = "too few turns";
     result.values.push_back({"turns_measured", "1", turns, not_known, window, "tester.turns"});
-    for (std::size_t m = 0; m < baffle_angles; ++m)
-        measure_angle(m, trajectory, frames_at(places, static_cast<double>(m) * full_turn / baffle_angles), shapes, tester, window, result);
+    for (std::size_t m = 0; m < baffle_angles; ++m) {
+        const std::vector<std::size_t> frames = frames_at(places, static_cast<double>(m) * full_turn / baffle_angles);
+        if (frames.empty() && result.status == "complete") result.status = "frames too far apart";
+        measure_angle(m, trajectory, frames, shapes, tester, window, result);
+    }
     measure_load(trajectory, places, tester, window, result);
     return result;
 }

@@ -21,8 +21,9 @@ struct TesterGeometry {
 
 /// Of the frames in the window (its begin not, its end counted): occupancy maps at the eight angles, averaged over turns («cloud_000» … «cloud_315»), share of
 /// pellets in the cloud and place of all pellets' centre at each of them, the load of the baffle against its angle, and the release angles at which 10, 50 and
-/// 90 % of the largest load have left it. Standard errors are those of the mean over turns. `status` is «too few turns» with less than two. Throws
-/// Error(bad_input) for a geometry without size, a drum that does not turn, and a window without a frame.
+/// 90 % of the largest load have left it. Standard errors are those of the mean over turns. `status` is «too few turns» with less than two, «frames too far
+/// apart» when no frame is near one of the eight angles. Throws Error(bad_input) for a geometry without size, a drum that does not turn, and a window without a
+/// frame.
 Observables measure_tester(const FrameSource& trajectory, const TesterGeometry& tester, const TimeWindow& window);
 
 }  // namespace pelletlab::observables

@@ -17,8 +17,8 @@ SMALL = ["--set", "pellet.count=6", "--set", "time.settle_limit=0.02 s", "--set"
 SMALL_DRUM = ["--set", "pellet.count=6", "--set", "time.settle_limit=0.02 s", "--set", "time.spin_up=0.01 s", "--set", "time.measure=0.02 s",
               "--set", "output.frame_interval=0.005 s", "--set", "output.pictures=false", "--set", "output.paraview=false"]
 TESTER = ["--set", "pellet.count=60", "--set", "time.step=2e-5 s", "--set", "tester.diameter=60 mm", "--set", "tester.length=20 mm",
-          "--set", "tester.baffle_height=12 mm", "--set", "tester.speed=180 rpm", "--set", "time.settle_limit=0.1 s", "--set", "time.spin_up=0.1 s",
-          "--set", "time.measure=0.7 s", "--set", "output.paraview=false"]  # two turns
+          "--set", "tester.baffle_height=12 mm", "--set", "tester.speed=120 rpm", "--set", "time.settle_limit=0.1 s", "--set", "time.spin_up=0.1 s",
+          "--set", "time.measure=1.05 s", "--set", "output.frame_interval=6.944 ms", "--set", "output.paraview=false"]  # two turns, a frame every 5 degrees
 SMALL_TESTER = [*TESTER, "--set", "output.pictures=false"]
 SMALL_PILE = [*SMALL, "--set", "pile.discharge_limit=0.03 s"]
 # … and one that goes on for minutes, to be interrupted.

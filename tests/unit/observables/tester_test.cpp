@@ -140,4 +140,8 @@ TEST(Tester, RefusesWhatCannotBeMeasured) {
     t.radius = 0.0;
     EXPECT_THROW(measure_tester(trajectory, t, {0.0, 3.0}), Error);
     EXPECT_EQ(measure_tester(trajectory, geometry(), {0.0, 1.2}).status, "too few turns");
+    Trajectory sparse = trajectory;  // a frame every 15°, from 5° on: at 5°, 50°, … never within 3° of 45°
+    sparse.frames.clear();
+    for (std::size_t k = 1; k < trajectory.frames.size(); k += 3) sparse.frames.push_back(trajectory.frames[k]);
+    EXPECT_EQ(measure_tester(sparse, geometry(), {0.0, 3.0}).status, "frames too far apart");
 }
