@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
     pelletlab::apps::add_pile_verb(app);
     pelletlab::apps::add_tester_verb(app);
     pelletlab::apps::add_observe_verb(app);
+    pelletlab::apps::add_compare_verb(app);
     pelletlab::apps::add_demo_verb(app);
     pelletlab::apps::add_case_verb(app);
     pelletlab::apps::add_mesh_verb(app);

@@ -13,6 +13,7 @@ void add_drum_verb(CLI::App& app);
 void add_pile_verb(CLI::App& app);
 void add_tester_verb(CLI::App& app);
 void add_observe_verb(CLI::App& app);
+void add_compare_verb(CLI::App& app);
 void add_demo_verb(CLI::App& app);
 void add_diagnose_verb(CLI::App& app);
 

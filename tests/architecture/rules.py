@@ -7,7 +7,7 @@ ALLOWED = {
     "shapegen": {"core", "meshes"},
     "solver": {"core"},
     "observables": {"core"},
-    "packing": {"core", "meshes", "solver", "observables"},
+    "packing": {"core", "meshes", "solver", "observables", "inference"},
     "experiments": {"core", "meshes", "solver", "observables", "packing"},
     "campaign": {"core"},
     "inference": {"core"},
