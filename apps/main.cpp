@@ -61,6 +61,8 @@ int main(int argc, char** argv) {
     pelletlab::apps::add_tester_verb(app);
     pelletlab::apps::add_observe_verb(app);
     pelletlab::apps::add_compare_verb(app);
+    pelletlab::apps::add_campaign_verb(app);
+    pelletlab::apps::add_calibrate_verb(app);
     pelletlab::apps::add_demo_verb(app);
     pelletlab::apps::add_case_verb(app);
     pelletlab::apps::add_mesh_verb(app);

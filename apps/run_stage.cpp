@@ -55,6 +55,17 @@ StageKey key_of(const Case& c, const fs::path& clump_file) {
     return key;
 }
 
+}  // namespace
+
+std::string run_key(const Case& c) {
+    const StageKey key = key_of(c, beside_case(c, c.pellet.clump_file));
+    std::string text = build_version() + "\n" + key.verb + "\n" + key.settings + "\n";
+    for (const auto& [name, hash] : key.inputs) text += name + " " + hash + "\n";
+    return io::sha256_of_text(text);
+}
+
+namespace {
+
 packing::RunResult run_rig(const Case& c, const packing::RunInputs& inputs, RunKeeper& keeper, const fs::path& trajectory_file) {
     const auto open_sink = [&](const TrajectoryHeader& header) { return keeper.open(header); };
     ProgressPrinter progress;

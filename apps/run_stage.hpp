@@ -35,6 +35,10 @@ struct RunSummary {
     double pellet_steps_per_second = 0.0;  ///< stepping alone
 };
 
+/// Hash of what decides a run's result: version of the program, resolved case, clump and meshes. Not the commit, unlike a stage's fingerprint: a campaign of hours
+/// outlives commits. Throws Error(bad_input) for files that are not there.
+std::string run_key(const Case& c);
+
 /// Runs the case on its rig; throws Error(usage) when the case's rig is not `expected`.
 RunSummary run_case(const RunRequest& request, Rig expected);
 

@@ -14,6 +14,8 @@ void add_pile_verb(CLI::App& app);
 void add_tester_verb(CLI::App& app);
 void add_observe_verb(CLI::App& app);
 void add_compare_verb(CLI::App& app);
+void add_campaign_verb(CLI::App& app);
+void add_calibrate_verb(CLI::App& app);
 void add_demo_verb(CLI::App& app);
 void add_diagnose_verb(CLI::App& app);
 

@@ -12,6 +12,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bodies
 import harness
+import test_campaign
 import test_cases
 import test_compare
 import test_diagnose
@@ -22,7 +23,7 @@ import test_runs
 import test_shapes
 import test_usage
 
-MODULES = (test_usage, test_meshes, test_observe, test_compare, test_cases, test_diagnose, test_runs, test_resume, test_shapes)
+MODULES = (test_usage, test_meshes, test_observe, test_campaign, test_compare, test_cases, test_diagnose, test_runs, test_resume, test_shapes)
 CLASSES = {name: one for module in MODULES for name, one in inspect.getmembers(module, inspect.isclass)
            if issubclass(one, harness.PelletlabTest) and one is not harness.PelletlabTest}
 

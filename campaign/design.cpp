@@ -1,0 +1,72 @@
+#include "campaign/design.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "campaign/assemble.hpp"
+
+namespace pelletlab::campaign {
+
+Eigen::VectorXd golden_point(int i, int dimensions) {
+    double g = 1.5;
+    for (int k = 0; k < 60; ++k) g = std::pow(1.0 + g, 1.0 / (dimensions + 1));
+    Eigen::VectorXd point(dimensions);
+    double power = 1.0;
+    for (int j = 0; j < dimensions; ++j) {
+        power /= g;
+        const double x = 0.5 + (i + 1) * power;
+        point[j] = x - std::floor(x);
+    }
+    return point;
+}
+
+namespace {
+
+std::vector<double> values_at(const CampaignPlan& plan, const Eigen::VectorXd& phi) {
+    std::vector<double> values;
+    for (std::size_t j = 0; j < plan.parameters.size(); ++j) values.push_back(value_of_coordinate(plan.parameters[j], phi[static_cast<Eigen::Index>(j)]));
+    return values;
+}
+
+}  // namespace
+
+std::vector<PlannedRun> design_of(const CampaignPlan& plan) {
+    std::vector<PlannedRun> runs;
+    std::vector<double> baseline;
+    for (const CampaignEffect& e : plan.effects) baseline.push_back(e.baseline);
+    std::uint64_t number = 0;
+    const auto add = [&](const std::vector<double>& parameters, const std::vector<double>& effects) {
+        ++number;
+        for (std::size_t rig = 0; rig < plan.rigs.size(); ++rig) runs.push_back({static_cast<int>(rig), parameters, effects, 1000000 * plan.seed + number});
+    };
+    const int dimensions = static_cast<int>(plan.parameters.size());
+    const int points = plan.points > 0 ? plan.points : 10 * dimensions;
+    for (int i = 0; i < points; ++i) add(values_at(plan, golden_point(i, dimensions)), baseline);
+    for (int repeat = 1; repeat < plan.repeats; ++repeat)
+        for (int i = 0; i < std::min(plan.anchors, points); ++i) add(values_at(plan, golden_point(i, dimensions)), baseline);
+    for (std::size_t k = 0; k < plan.effects.size(); ++k)
+        for (int i = 0; i < plan.runs_an_effect; ++i) {
+            // One more dimension for the amplitude; every effect goes on where the one before ended.
+            const Eigen::VectorXd u = golden_point(points + static_cast<int>(k) * plan.runs_an_effect + i, dimensions + 1);
+            double theta = 0.15 + 0.85 * u[dimensions];
+            if (plan.effects[k].two_sided && i % 2 == 1) theta = -theta;
+            auto effects = baseline;
+            effects[k] = value_of_amplitude(plan.effects[k], theta);
+            add(values_at(plan, u.head(dimensions)), effects);
+        }
+    return runs;
+}
+
+std::vector<std::string> overrides_of(const CampaignPlan& plan, const PlannedRun& run) {
+    std::vector<std::string> list;
+    const auto set = [&list](const std::vector<std::string>& keys, double value, const std::string& unit) {
+        for (const std::string& key : keys) list.push_back(fmt::format("{}={:.17g}{}", key, value, unit == "1" ? "" : " " + unit));
+    };
+    for (std::size_t j = 0; j < plan.parameters.size(); ++j) set(plan.parameter_keys[j], run.parameters[j], plan.parameters[j].unit);
+    for (std::size_t k = 0; k < plan.effects.size(); ++k) set(plan.effect_keys[k], run.effects[k], plan.effects[k].unit);
+    list.push_back(fmt::format("seed={}", run.seed));
+    return list;
+}
+
+}  // namespace pelletlab::campaign

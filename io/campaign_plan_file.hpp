@@ -1,0 +1,13 @@
+// plan.toml: a campaign to be run with our own rigs. All keys: docs/campaigns.md.
+#pragma once
+
+#include <filesystem>
+
+#include "core/campaign_plan.hpp"
+
+namespace pelletlab::io {
+
+/// Strict: every mistake with file, line and column. Whether the case files take the keys is found out by the one who reads them.
+CampaignPlan read_campaign_plan(const std::filesystem::path& file);
+
+}  // namespace pelletlab::io

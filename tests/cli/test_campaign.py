@@ -1,0 +1,99 @@
+"""pelletlab campaign and calibrate: many small runs, killed in the middle, one table, and what it says about the parameters."""
+
+import csv
+import json
+import os
+import signal
+import time
+
+from harness import BAD_INPUT, PelletlabTest
+
+PLAN = """name = "small"
+largest_failed_share = 1.0
+good = ["complete", "not at rest"]
+[[rig]]
+name = "tube"
+case = "tube.toml"
+set = ["pellet.count=5", "time.settle_limit=0.05 s", "time.step=2e-5 s", "output.frame_interval=0.01 s"]
+[[parameter]]
+name = "sliding"
+keys = ["contacts.pellet-pellet.sliding_friction", "contacts.pellet-vessel.sliding_friction"]
+range = [0.2, 0.9]
+[[observable]]
+name = "mean_centroid_height"
+tolerance = 0.5
+[design]
+points = 8
+anchors = 2
+repeats = 2
+"""
+
+
+class Campaign(PelletlabTest):
+    def prepare(self, plan=PLAN):
+        self.new_case()
+        return self.write("plan.toml", plan)
+
+    def rows(self):
+        with open(self.path("c", "runs.csv"), newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def test_a_killed_campaign_goes_on_and_gives_one_table(self):
+        plan = self.prepare()
+        process = self.start("campaign", "run", plan, "-o", "c", "--jobs", "2", start_new_session=True)
+        for _ in range(600):
+            time.sleep(0.05)
+            status = self.run_program("campaign", "status", plan, "-o", "c")
+            if "finished  0" not in status.out and "finished" in status.out:
+                break
+        os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+        result = self.succeeds("campaign", "run", plan, "-o", "c", "--jobs", "2")
+        self.assertNotIn(" 0 of them finished before", result.out)
+        rows = self.rows()
+        self.assertEqual(len(rows), 10)
+        self.assertEqual(len({(row["sliding"], row["seed"]) for row in rows}), 10)
+        self.assertEqual(len({row["sliding"] for row in rows}), 8)
+        self.assertTrue(all(float(row["mean_centroid_height"]) > 0 for row in rows))
+        table = self.read("c", "runs.csv")
+        # Again there is nothing to do; from the beginning in another folder, by hand, come the same numbers.
+        self.assertIn("10 runs, 10 of them finished before", self.succeeds("campaign", "run", plan, "-o", "c").out)
+        self.succeeds("campaign", "run", plan, "-o", "d", "--launcher", "parallel", "--jobs", "1")
+        with open(self.path("d", "jobs.txt"), encoding="utf-8") as file:
+            self.assertIn("campaign work", file.read())
+        self.succeeds("campaign", "work", plan, "-o", "d")
+        self.succeeds("campaign", "export", plan, "-o", "d")
+        self.assertEqual(self.read("d", "runs.csv"), table)
+        self.succeeds("campaign", "run", plan, "-o", "e", "--launcher", "slurm", "--jobs", "3")
+        self.assertIn("#SBATCH --array=1-3", self.read("e", "array.sbatch"))
+        # Calibrated on its own middle, the friction stays open: five pellets do not know it.
+        middle = sorted(float(row["mean_centroid_height"]) for row in rows)[5]
+        self.write("experiment.toml", f"""name = "own"
+campaign = "c/campaign.toml"
+[[measurement]]
+observable = "mean_centroid_height"
+regime = "tube"
+value = {middle}
+unit = "mm"
+uncertainty = 0.5
+[[measurement]]
+observable = "mean_centroid_height"
+name = "again"
+regime = "tube"
+value = {middle + 0.01}
+unit = "mm"
+uncertainty = 0.6
+""")
+        result = self.succeeds("calibrate", "experiment.toml", "-o", "cal")
+        self.assertIn("sliding", result.out)
+        found = json.loads(self.read("cal", "calibration.json"))
+        low, high = found["parameters"][0]["interval_90"]
+        self.assertTrue(0.2 <= low < high <= 0.9)
+
+    def test_what_is_wrong_is_said_before_anything_runs(self):
+        plan = self.prepare(PLAN.replace("contacts.pellet-vessel.sliding_friction", "contacts.pellet-vessel.sliding"))
+        self.fails(BAD_INPUT, "campaign", "run", plan, "-o", "c", says="sliding")
+        self.write("plan.toml", PLAN.replace('case = "tube.toml"', 'case = "nowhere.toml"'))
+        self.fails(BAD_INPUT, "campaign", "run", plan, "-o", "c", says="nowhere.toml")
+        self.write("plan.toml", PLAN.replace("range = [0.2, 0.9]", "range = [0.9, 0.2]"))
+        self.fails(BAD_INPUT, "campaign", "run", plan, "-o", "c", says="plan.toml:11")
