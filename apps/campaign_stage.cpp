@@ -32,14 +32,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path store_file(const fs::path& folder) { return folder / "campaign.sqlite"; }
-fs::path lock_file(const fs::path& folder, const std::string& worker) { return folder / "workers" / (worker + ".lock"); }
+fs::path store_file(const fs::path& folder) {
+    return folder / "campaign.sqlite";
+}
+fs::path lock_file(const fs::path& folder, const std::string& worker) {
+    return folder / "workers" / (worker + ".lock");
+}
 
 const PlannedRig& rig_of(const CampaignPlan& plan, const std::string& name) {
     return *std::find_if(plan.rigs.begin(), plan.rigs.end(), [&](const PlannedRig& r) { return r.name == name; });
 }
 
-fs::path case_of(const CampaignPlan& plan, const PlannedRig& rig) { return fs::path(plan.file).parent_path() / rig.case_file; }
+fs::path case_of(const CampaignPlan& plan, const PlannedRig& rig) {
+    return fs::path(plan.file).parent_path() / rig.case_file;
+}
 
 std::vector<std::string> all_overrides(const CampaignPlan& plan, const PlannedRig& rig, const PlannedRun& run) {
     std::vector<std::string> list = rig.overrides;
@@ -52,7 +58,8 @@ std::vector<std::string> all_overrides(const CampaignPlan& plan, const PlannedRi
 class WorkerLock {
 public:
     explicit WorkerLock(const fs::path& file) : file_(file), handle_(::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644)) {
-        if (handle_ < 0) throw bad_input("cannot write '" + file.string() + "': " + std::strerror(errno), "check the folder's rights and space", {file.string()});
+        if (handle_ < 0)
+            throw bad_input("cannot write '" + file.string() + "': " + std::strerror(errno), "check the folder's rights and space", {file.string()});
         held_ = ::flock(handle_, LOCK_EX | LOCK_NB) == 0;
     }
     ~WorkerLock() {
@@ -132,17 +139,20 @@ void run_pool(const OpenedCampaign& campaign, const CampaignRequest& request) {
     }
     printer.finish();
     throw_if_interrupted();
-    if (failed) throw bad_input("a worker ended before the work was done", "see workers/worker-*.log in " + campaign.folder.string() + "; finished runs are kept");
+    if (failed)
+        throw bad_input("a worker ended before the work was done", "see workers/worker-*.log in " + campaign.folder.string() + "; finished runs are kept");
 }
 
 /// Job files for others to start: an array whose tasks all do the same, take runs until none is left.
 void write_jobs(const OpenedCampaign& campaign, const CampaignRequest& request) {
     const fs::path self = fs::read_symlink("/proc/self/exe"), plan = fs::absolute(campaign.plan.file), folder = fs::absolute(campaign.folder);
-    const std::string command = fmt::format("'{}' --threads 1 campaign work '{}' -o '{}'{}", self.string(), plan.string(), folder.string(), request.keep_runs ? " --keep-runs" : "");
+    const std::string command =
+        fmt::format("'{}' --threads 1 campaign work '{}' -o '{}'{}", self.string(), plan.string(), folder.string(), request.keep_runs ? " --keep-runs" : "");
     if (request.launcher == "slurm") {
-        io::write_text(folder / "array.sbatch",
-                       fmt::format("#!/bin/sh\n#SBATCH --job-name={}\n#SBATCH --array=1-{}\n#SBATCH --cpus-per-task=1\n#SBATCH --output={}/workers/slurm-%A_%a.log\n{}\n", campaign.plan.name,
-                                   request.jobs, folder.string(), command));
+        io::write_text(
+            folder / "array.sbatch",
+            fmt::format("#!/bin/sh\n#SBATCH --job-name={}\n#SBATCH --array=1-{}\n#SBATCH --cpus-per-task=1\n#SBATCH --output={}/workers/slurm-%A_%a.log\n{}\n",
+                        campaign.plan.name, request.jobs, folder.string(), command));
         print_written(folder / "array.sbatch", "start it with: sbatch " + (folder / "array.sbatch").string());
     } else {
         std::string lines;
@@ -215,7 +225,8 @@ void run_campaign(const CampaignRequest& request) {
     if (request.launcher != "local") return write_jobs(campaign, request);
     {
         const auto counts = io::CampaignStore(store_file(campaign.folder)).counts();
-        print_line(fmt::format("campaign {}: {} runs, {} of them finished before", campaign.plan.name, counts[0] + counts[1] + counts[2] + counts[3], counts[2]));
+        print_line(
+            fmt::format("campaign {}: {} runs, {} of them finished before", campaign.plan.name, counts[0] + counts[1] + counts[2] + counts[3], counts[2]));
         if (counts[0] > 0) run_pool(campaign, request);
     }
     export_campaign(campaign);
@@ -271,7 +282,9 @@ Column column_of(const PlannedObservable& wanted, const std::vector<Observables>
     throw bad_input("no finished run measures '" + wanted.name + "'", known.empty() ? "run the campaign first" : "the first run has: " + known, {file});
 }
 
-std::string field(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : std::string(); }
+std::string field(double value) {
+    return std::isfinite(value) ? fmt::format("{:.17g}", value) : std::string();
+}
 
 }  // namespace
 
@@ -313,23 +326,30 @@ void export_campaign(const OpenedCampaign& campaign) {
     }
     io::write_text(campaign.folder / "runs.csv", text);
     const auto quoted = [](const std::string& s) { return "\"" + s + "\""; };
-    toml = fmt::format("# Made by pelletlab campaign from {}\nname = {}\nsource = {}\ntable = \"runs.csv\"\nlargest_failed_share = {}\n\n[status]\ncolumn = \"status\"\ngood = [", plan.file,
-                       quoted(plan.name), quoted("pelletlab " + build_version()), plan.largest_failed_share);
+    toml = fmt::format(
+        "# Made by pelletlab campaign from {}\nname = {}\nsource = {}\ntable = \"runs.csv\"\nlargest_failed_share = {}\n\n[status]\ncolumn = \"status\"\ngood "
+        "= [",
+        plan.file, quoted(plan.name), quoted("pelletlab " + build_version()), plan.largest_failed_share);
     for (std::size_t i = 0; i < plan.good.size(); ++i) toml += (i > 0 ? ", " : "") + quoted(plan.good[i]);
     toml += "]\n\n[regime]\ncolumn = \"regime\"\nname = \"rig\"\n";
     for (const auto& p : plan.parameters)
-        toml += fmt::format("\n[[parameter]]\nname = {}\nunit = {}\nrange = [{:.17g}, {:.17g}]\nscale = {}\n", quoted(p.name), quoted(p.unit), p.lower, p.upper, quoted(p.logarithmic ? "log" : "linear"));
+        toml += fmt::format("\n[[parameter]]\nname = {}\nunit = {}\nrange = [{:.17g}, {:.17g}]\nscale = {}\n", quoted(p.name), quoted(p.unit), p.lower, p.upper,
+                            quoted(p.logarithmic ? "log" : "linear"));
     for (const auto& e : plan.effects)
-        toml += fmt::format("\n[[effect]]\nname = {}\ntitle = {}\nunit = {}\nbaseline = {:.17g}\nfull = {:.17g}\nscale = {}\ntwo_sided = {}\nclass = {}\n", quoted(e.name), quoted(e.title),
-                            quoted(e.unit), e.baseline, e.full, quoted(e.square_root ? "sqrt" : "linear"), e.two_sided, quoted(e.effect_class));
+        toml += fmt::format("\n[[effect]]\nname = {}\ntitle = {}\nunit = {}\nbaseline = {:.17g}\nfull = {:.17g}\nscale = {}\ntwo_sided = {}\nclass = {}\n",
+                            quoted(e.name), quoted(e.title), quoted(e.unit), e.baseline, e.full, quoted(e.square_root ? "sqrt" : "linear"), e.two_sided,
+                            quoted(e.effect_class));
     for (std::size_t i = 0; i < columns.size(); ++i) {
         const Column& c = columns[i];
-        toml += fmt::format("\n[[observable]]\nname = {}\nunit = {}\ntolerance = {:.17g}\n", quoted(c.observable), quoted(c.unit), plan.observables[i].tolerance);
-        if (c.is_profile) toml += fmt::format("columns = {}\naxis = {}\naxis_unit = {}\n", quoted(c.observable + "(*)"), quoted(c.axis_name), quoted(c.axis_unit));
+        toml +=
+            fmt::format("\n[[observable]]\nname = {}\nunit = {}\ntolerance = {:.17g}\n", quoted(c.observable), quoted(c.unit), plan.observables[i].tolerance);
+        if (c.is_profile)
+            toml += fmt::format("columns = {}\naxis = {}\naxis_unit = {}\n", quoted(c.observable + "(*)"), quoted(c.axis_name), quoted(c.axis_unit));
     }
     io::write_text(campaign.folder / "campaign.toml", toml);
-    print_written(campaign.folder / "runs.csv", fmt::format("{} runs{}{}", rows.size() - static_cast<std::size_t>(open), failed > 0 ? fmt::format(", {} of them failed", failed) : "",
-                                                            open > 0 ? fmt::format("; {} are still to be run", open) : ""));
+    print_written(campaign.folder / "runs.csv",
+                  fmt::format("{} runs{}{}", rows.size() - static_cast<std::size_t>(open), failed > 0 ? fmt::format(", {} of them failed", failed) : "",
+                              open > 0 ? fmt::format("; {} are still to be run", open) : ""));
     print_written(campaign.folder / "campaign.toml", "what diagnose and calibrate read");
 }
 

@@ -29,7 +29,9 @@ struct CalibrateOptions {
     bool no_picture = false;
 };
 
-std::string with_unit(double value, const std::string& unit) { return unit == "1" ? fmt::format("{:.4g}", value) : fmt::format("{:.4g} {}", value, unit); }
+std::string with_unit(double value, const std::string& unit) {
+    return unit == "1" ? fmt::format("{:.4g}", value) : fmt::format("{:.4g} {}", value, unit);
+}
 
 Json json_of(const diagnosis::Calibration& c, const Experiment& experiment) {
     Json j;
@@ -41,8 +43,14 @@ Json json_of(const diagnosis::Calibration& c, const Experiment& experiment) {
     j["adequacy_p"] = c.adequacy_p;
     j["effective_samples"] = c.effective_samples;
     for (const auto& p : c.parameters)
-        j["parameters"].push_back({{"name", p.name}, {"unit", p.unit}, {"range", {p.prior_lower, p.prior_upper}}, {"best", p.best}, {"mean", p.mean}, {"interval_90", {p.lower, p.upper}},
-                                   {"narrowed_to", p.narrowed}, {"profile", {{"value", p.profile_value}, {"chi2", p.profile_chi2}}}});
+        j["parameters"].push_back({{"name", p.name},
+                                   {"unit", p.unit},
+                                   {"range", {p.prior_lower, p.prior_upper}},
+                                   {"best", p.best},
+                                   {"mean", p.mean},
+                                   {"interval_90", {p.lower, p.upper}},
+                                   {"narrowed_to", p.narrowed},
+                                   {"profile", {{"value", p.profile_value}, {"chi2", p.profile_chi2}}}});
     for (Eigen::Index i = 0; i < c.correlation.rows(); ++i) {
         std::vector<double> row(static_cast<std::size_t>(c.correlation.cols()));
         for (Eigen::Index k = 0; k < c.correlation.cols(); ++k) row[static_cast<std::size_t>(k)] = c.correlation(i, k);
@@ -52,7 +60,8 @@ Json json_of(const diagnosis::Calibration& c, const Experiment& experiment) {
     for (const auto& d : c.open) j["left_open"].push_back({{"direction", d.text}, {"posterior_over_prior", d.deviation}});
     for (const auto& n : c.next) j["next"].push_back({{"observable", n.observable}, {"regime", n.regime}, {"information_nats", n.information}});
     for (const auto& d : c.draws) j["draws"].push_back(std::vector<double>(d.data(), d.data() + d.size()));
-    j["provenance"] = {{"version", build_version()}, {"git_hash", build_git_hash()}, {"seed", experiment.settings.seed}, {"experiment_sha256", experiment.text_sha256}};
+    j["provenance"] = {
+        {"version", build_version()}, {"git_hash", build_git_hash()}, {"seed", experiment.settings.seed}, {"experiment_sha256", experiment.text_sha256}};
     return j;
 }
 
@@ -73,7 +82,11 @@ report::Image valley_of(const diagnosis::Calibration& c) {
     report::ChartSeries range, cloud, best;
     const auto &pa = c.parameters[static_cast<std::size_t>(a)], &pb = c.parameters[static_cast<std::size_t>(b)];
     range.name = "range before the measurements";
-    range.points = {{pa.prior_lower, pb.prior_lower}, {pa.prior_upper, pb.prior_lower}, {pa.prior_upper, pb.prior_upper}, {pa.prior_lower, pb.prior_upper}, {pa.prior_lower, pb.prior_lower}};
+    range.points = {{pa.prior_lower, pb.prior_lower},
+                    {pa.prior_upper, pb.prior_lower},
+                    {pa.prior_upper, pb.prior_upper},
+                    {pa.prior_lower, pb.prior_upper},
+                    {pa.prior_lower, pb.prior_lower}};
     range.line = range.dashed = true;
     range.colour = {150, 150, 150};
     range.marker = report::Marker::cross;
@@ -107,7 +120,8 @@ void run_calibrate(const CalibrateOptions& options) {
     const Stopwatch stopwatch;
     const Experiment experiment = io::read_experiment(options.experiment);
     const Campaign campaign = campaign::assemble(io::read_campaign(experiment.campaign_file));
-    const diagnosis::Problem problem = diagnosis::make_problem(diagnosis::make_model(campaign, experiment.library, experiment.exclude, experiment.file), experiment);
+    const diagnosis::Problem problem = diagnosis::make_problem(diagnosis::make_model(campaign, experiment.library, experiment.exclude, experiment.file),
+                                                               experiment, diagnosis::FewData::allow);
     const fs::path folder = options.output.empty() ? fs::path("out") / ("calibration-" + experiment.name) : fs::path(options.output);
     io::prepare_output_folder(folder);
     const diagnosis::Attributor attributor(problem);

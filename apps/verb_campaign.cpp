@@ -52,8 +52,9 @@ void add_campaign_verb(CLI::App& app) {
                          "  example: pelletlab --threads 1 campaign work examples/campaign/plan.toml -o out/campaign");
     work->add_flag("--keep-runs", request->keep_runs, "Keep the folder of every run");
     work->callback([request] { work_on_campaign(open_campaign(*request), request->keep_runs); });
-    add("status", "How far it is, and why runs failed\n  example: pelletlab campaign status examples/campaign/plan.toml -o out/campaign")
-        ->callback([request] { print_status(*request); });
+    add("status", "How far it is, and why runs failed\n  example: pelletlab campaign status examples/campaign/plan.toml -o out/campaign")->callback([request] {
+        print_status(*request);
+    });
     add("export", "Write the table of what is finished\n  example: pelletlab campaign export examples/campaign/plan.toml -o out/campaign")->callback([request] {
         export_campaign(open_campaign(*request));
     });

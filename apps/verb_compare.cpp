@@ -71,7 +71,8 @@ Run read_run(const fs::path& folder, const std::string& definition) {
     bed.pellet_volume = head.shapes[0].rigid.mass_properties.volume;
     bed.tube_diameter = c.tube.diameter;
     bed.seed = c.seed;
-    bed.at_rest = observables.status == "complete";
+    bed.at_rest = observables.status != "not at rest";
+    if (bed.at_rest && observables.status != "complete") print_line(folder.string() + ": " + observables.status);
     bool found = false;
     std::string names;
     for (const Observable& o : observables.values) {
@@ -82,6 +83,9 @@ Run read_run(const fs::path& folder, const std::string& definition) {
         found = true;
     }
     if (!found) throw usage_error("the run " + folder.string() + " has no '" + definition + "'", "one of: " + names);
+    if (bed.at_rest && !std::isfinite(bed.height))
+        throw bad_input("'" + definition + "' could not be measured in " + folder.string() + " (" + observables.status + ")",
+                        "choose another --definition, or fill in more pellets", {file.string()});
     run.conditions = conditions_of(head.resolved_case);
     return run;
 }

@@ -2,22 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <boost/random/sobol.hpp>
 #include <cmath>
 
 #include "campaign/assemble.hpp"
 
 namespace pelletlab::campaign {
 
-Eigen::VectorXd golden_point(int i, int dimensions) {
-    double g = 1.5;
-    for (int k = 0; k < 60; ++k) g = std::pow(1.0 + g, 1.0 / (dimensions + 1));
+Eigen::VectorXd sobol_point(int i, int dimensions) {
+    boost::random::sobol engine(static_cast<std::size_t>(dimensions));
+    engine.discard((static_cast<std::uint64_t>(i) + 1) * static_cast<std::uint64_t>(dimensions));  // the sequence begins with the corner 0
     Eigen::VectorXd point(dimensions);
-    double power = 1.0;
-    for (int j = 0; j < dimensions; ++j) {
-        power /= g;
-        const double x = 0.5 + (i + 1) * power;
-        point[j] = x - std::floor(x);
-    }
+    for (int j = 0; j < dimensions; ++j) point[j] = static_cast<double>(engine() >> 11) * 0x1p-53;
     return point;
 }
 
@@ -42,13 +38,13 @@ std::vector<PlannedRun> design_of(const CampaignPlan& plan) {
     };
     const int dimensions = static_cast<int>(plan.parameters.size());
     const int points = plan.points > 0 ? plan.points : 10 * dimensions;
-    for (int i = 0; i < points; ++i) add(values_at(plan, golden_point(i, dimensions)), baseline);
+    for (int i = 0; i < points; ++i) add(values_at(plan, sobol_point(i, dimensions)), baseline);
     for (int repeat = 1; repeat < plan.repeats; ++repeat)
-        for (int i = 0; i < std::min(plan.anchors, points); ++i) add(values_at(plan, golden_point(i, dimensions)), baseline);
+        for (int i = 0; i < std::min(plan.anchors, points); ++i) add(values_at(plan, sobol_point(i, dimensions)), baseline);
     for (std::size_t k = 0; k < plan.effects.size(); ++k)
         for (int i = 0; i < plan.runs_an_effect; ++i) {
             // One more dimension for the amplitude; every effect goes on where the one before ended.
-            const Eigen::VectorXd u = golden_point(points + static_cast<int>(k) * plan.runs_an_effect + i, dimensions + 1);
+            const Eigen::VectorXd u = sobol_point(points + static_cast<int>(k) * plan.runs_an_effect + i, dimensions + 1);
             double theta = 0.15 + 0.85 * u[dimensions];
             if (plan.effects[k].two_sided && i % 2 == 1) theta = -theta;
             auto effects = baseline;

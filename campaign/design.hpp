@@ -5,9 +5,9 @@
 
 namespace pelletlab::campaign {
 
-/// Point i (from 0) of the Kronecker sequence with the generalised golden ratio g, g^(d+1) = g + 1: coordinates frac(½ + (i + 1) / g^j), j = 1 … d. Every
-/// beginning of it fills the cube evenly, so a campaign can be made longer without losing what was run.
-Eigen::VectorXd golden_point(int i, int dimensions);
+/// Point i (from 0) of Sobol's sequence in (0, 1)^dimensions, its corner point left out (Joe & Kuo 2008, as in Boost). Every beginning of it fills the cube
+/// evenly, so a campaign can be made longer without losing what was run.
+Eigen::VectorXd sobol_point(int i, int dimensions);
 
 /// All runs: every configuration in every rig. Base points and repeats have all effects at their baseline; the block of an effect has its own points and
 /// amplitudes θ in [0.15, 1] (alternating in sign when two-sided), all others at their baseline. A run's seed depends on its place in the design and on the

@@ -64,7 +64,8 @@ Calibration calibrate(const Attributor& attributor) {
     c.misfit = adequacy.family;
 
     const Eigen::MatrixXd covariance = covariance_of(posterior.draws);
-    const Eigen::VectorXd prior = (problem.phi_upper - problem.phi_lower) / std::sqrt(12.0);
+    Eigen::VectorXd prior = (problem.phi_upper - problem.phi_lower) / std::sqrt(12.0);
+    prior = (prior.array() < 1e-5).select(0.0, prior);  // known parameters
     c.correlation = covariance;
     for (Eigen::Index i = 0; i < p; ++i)
         for (Eigen::Index j = 0; j < p; ++j) {
@@ -127,7 +128,8 @@ Calibration calibrate(const Attributor& attributor) {
         for (std::size_t r = 0; r < campaign.regimes.size(); ++r) {
             std::vector<int> outputs;
             for (std::size_t j = 0; j < campaign.outputs.size(); ++j)
-                if (campaign.outputs[j].observable == static_cast<int>(o) && campaign.outputs[j].regime == static_cast<int>(r)) outputs.push_back(static_cast<int>(j));
+                if (campaign.outputs[j].observable == static_cast<int>(o) && campaign.outputs[j].regime == static_cast<int>(r))
+                    outputs.push_back(static_cast<int>(j));
             if (outputs.empty()) continue;
             std::vector<Eigen::VectorXd> predicted;
             for (const auto& f : fields) predicted.emplace_back(f(outputs));

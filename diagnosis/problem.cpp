@@ -259,7 +259,7 @@ void refuse_duplicates(const Experiment& e) {
 
 }  // namespace
 
-Problem make_problem(std::shared_ptr<const Model> model, const Experiment& experiment) {
+Problem make_problem(std::shared_ptr<const Model> model, const Experiment& experiment, FewData few) {
     Problem p;
     p.model = std::move(model);
     p.experiment = experiment;
@@ -290,7 +290,7 @@ Problem make_problem(std::shared_ptr<const Model> model, const Experiment& exper
     }
     int unknowns = 0;
     for (Eigen::Index i = 0; i < p.phi_lower.size(); ++i) unknowns += p.phi_upper[i] - p.phi_lower[i] > 1e-5 ? 1 : 0;
-    if (static_cast<int>(p.fitted.points.size()) <= unknowns)
+    if (few == FewData::refuse && static_cast<int>(p.fitted.points.size()) <= unknowns)
         throw bad_input("there are " + std::to_string(p.fitted.points.size()) + " fitted data for " + std::to_string(unknowns) + " free calibration parameters",
                         "every set of data would fit: measure more, or fix parameters with value = …", {experiment.file});
     return p;

@@ -64,7 +64,11 @@ struct Problem {
 /// Joins experiment and model: units converted, regimes found or interpolated, ranges of the calibration parameters taken over. Throws Error(bad_input) for a
 /// unit that does not fit, an unknown observable, regime or parameter, a point outside the campaign's axis or regimes, data that are fitted and held out at
 /// once, the same picture or the same data twice, fewer data than free parameters.
-Problem make_problem(std::shared_ptr<const Model> model, const Experiment& experiment);
+enum class FewData {
+    refuse,  ///< a diagnosis asks what no set of parameters can explain: there must be more data than free parameters
+    allow    ///< a calibration says what few data leave open
+};
+Problem make_problem(std::shared_ptr<const Model> model, const Experiment& experiment, FewData few = FewData::refuse);
 
 /// Mean prediction at the data points of a set; θ has one element a library effect.
 Eigen::VectorXd predict(const Model& model, const DataSet& data, const Eigen::VectorXd& phi, const Eigen::VectorXd& theta);

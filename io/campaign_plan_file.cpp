@@ -58,7 +58,8 @@ CampaignPlan read_campaign_plan(const std::filesystem::path& file) {
         refuse_known(one, p.name, names);
         p.unit = read_unit(one);
         const auto range = one.numbers("range");
-        if (!range || range->size() != 2 || !((*range)[0] < (*range)[1])) throw one.problem("range", "must be two ascending numbers", "write range = [0.1, 1.0]");
+        if (!range || range->size() != 2 || !((*range)[0] < (*range)[1]))
+            throw one.problem("range", "must be two ascending numbers", "write range = [0.1, 1.0]");
         p.lower = (*range)[0];
         p.upper = (*range)[1];
         p.logarithmic = one.choice("scale", "linear", {"linear", "log"}) == "log";
@@ -85,9 +86,11 @@ CampaignPlan read_campaign_plan(const std::filesystem::path& file) {
         PlannedObservable o;
         o.name = one.text("name");
         o.tolerance = one.number("tolerance");
-        if (o.tolerance <= 0.0) throw one.problem("tolerance", "must be positive", "write the difference that does not matter to you, in the observable's unit");
+        if (o.tolerance <= 0.0)
+            throw one.problem("tolerance", "must be positive", "write the difference that does not matter to you, in the observable's unit");
         if (const auto range = one.numbers("axis_range")) {
-            if (range->size() != 2 || !((*range)[0] < (*range)[1])) throw one.problem("axis_range", "must be two ascending numbers", "write axis_range = [-30, 30]");
+            if (range->size() != 2 || !((*range)[0] < (*range)[1]))
+                throw one.problem("axis_range", "must be two ascending numbers", "write axis_range = [-30, 30]");
             o.axis_lower = (*range)[0];
             o.axis_upper = (*range)[1];
         }

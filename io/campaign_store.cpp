@@ -17,7 +17,8 @@ constexpr const char* state_names[] = {"planned", "running", "finished", "failed
 RunState state_of(const std::string& name) {
     for (int i = 0; i < 4; ++i)
         if (name == state_names[i]) return static_cast<RunState>(i);
-    throw bad_input("the campaign store holds a run in the unknown state '" + name + "'", "it was changed by another program: restore it, or begin a new campaign");
+    throw bad_input("the campaign store holds a run in the unknown state '" + name + "'",
+                    "it was changed by another program: restore it, or begin a new campaign");
 }
 
 }  // namespace
@@ -127,8 +128,10 @@ CampaignStore::CampaignStore(const std::filesystem::path& file) : database_(std:
     if (version == 0) {
         transaction(*database_, [&] {
             database_->execute(
-                "CREATE TABLE IF NOT EXISTS run (key TEXT PRIMARY KEY, number INTEGER NOT NULL, listed INTEGER NOT NULL, rig TEXT NOT NULL, parameters TEXT NOT NULL, effects TEXT NOT NULL,"
-                " seed INTEGER NOT NULL, state TEXT NOT NULL, worker TEXT NOT NULL DEFAULT '', seconds REAL NOT NULL DEFAULT 0, message TEXT NOT NULL DEFAULT '', observables TEXT NOT NULL DEFAULT '');"
+                "CREATE TABLE IF NOT EXISTS run (key TEXT PRIMARY KEY, number INTEGER NOT NULL, listed INTEGER NOT NULL, rig TEXT NOT NULL, parameters TEXT "
+                "NOT NULL, effects TEXT NOT NULL,"
+                " seed INTEGER NOT NULL, state TEXT NOT NULL, worker TEXT NOT NULL DEFAULT '', seconds REAL NOT NULL DEFAULT 0, message TEXT NOT NULL DEFAULT "
+                "'', observables TEXT NOT NULL DEFAULT '');"
                 "PRAGMA user_version = 1;");
         });
     } else if (version != store_version) {
@@ -143,9 +146,14 @@ void CampaignStore::set_design(const std::vector<StoredRun>& runs) {
     transaction(*database_, [&] {
         database_->execute("UPDATE run SET listed = 0");
         for (const StoredRun& run : runs) {
-            Statement insert(*database_, "INSERT INTO run (key, number, listed, rig, parameters, effects, seed, state) VALUES (?, ?, 1, ?, ?, ?, ?, 'planned')"
-                                         " ON CONFLICT (key) DO UPDATE SET listed = 1, number = excluded.number");
-            insert.bind(run.key).bind(std::int64_t{run.number}).bind(run.rig).bind(nlohmann::json(run.parameters).dump()).bind(nlohmann::json(run.effects).dump());
+            Statement insert(*database_,
+                             "INSERT INTO run (key, number, listed, rig, parameters, effects, seed, state) VALUES (?, ?, 1, ?, ?, ?, ?, 'planned')"
+                             " ON CONFLICT (key) DO UPDATE SET listed = 1, number = excluded.number");
+            insert.bind(run.key)
+                .bind(std::int64_t{run.number})
+                .bind(run.rig)
+                .bind(nlohmann::json(run.parameters).dump())
+                .bind(nlohmann::json(run.effects).dump());
             insert.bind(static_cast<std::int64_t>(run.seed)).step();
         }
     });

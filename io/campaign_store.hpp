@@ -20,10 +20,10 @@ struct StoredRun {
     std::vector<double> parameters, effects;
     std::uint64_t seed = 1;
     RunState state = RunState::planned;
-    std::string worker;         ///< of the process that runs it or ran it
-    double seconds = 0.0;       ///< of wall time
-    std::string message;        ///< why it failed
-    std::string observables;    ///< text of observables.json; empty unless finished
+    std::string worker;       ///< of the process that runs it or ran it
+    double seconds = 0.0;     ///< of wall time
+    std::string message;      ///< why it failed
+    std::string observables;  ///< text of observables.json; empty unless finished
 };
 
 class CampaignStore {

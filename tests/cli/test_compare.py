@@ -5,7 +5,7 @@ import csv
 from harness import BAD_INPUT, SMALL, USAGE, PelletlabTest
 
 # A few pellets that count as at rest once they lie: what is compared need not be a good bed here.
-QUICK = [*SMALL, "--set", "time.settle_limit=0.6 s", "--set", "time.rest_kinetic_energy=0.05", "--set", "time.step=2e-5 s"]
+QUICK = [*SMALL, "--set", "time.settle_limit=1 s", "--set", "time.rest_kinetic_energy=0.05", "--set", "time.rest_contact_change=1", "--set", "time.step=2e-5 s"]
 
 
 class Compare(PelletlabTest):
