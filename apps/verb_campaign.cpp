@@ -49,7 +49,7 @@ void add_campaign_verb(CLI::App& app) {
     run->callback([request] { run_campaign(*request); });
     CLI::App* work = add("work",
                          "One worker: takes runs until none is left; what a job of a cluster does\n"
-                         "  example: pelletlab --threads 1 campaign work examples/campaign/plan.toml -o out/campaign");
+                         "  example: pelletlab campaign work examples/campaign/plan.toml -o out/campaign");
     work->add_flag("--keep-runs", request->keep_runs, "Keep the folder of every run");
     work->callback([request] { work_on_campaign(open_campaign(*request), request->keep_runs); });
     add("status", "How far it is, and why runs failed\n  example: pelletlab campaign status examples/campaign/plan.toml -o out/campaign")->callback([request] {

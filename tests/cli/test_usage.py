@@ -7,6 +7,7 @@ from harness import BAD_INPUT, USAGE, PelletlabTest
 VERBS = [["shape"], ["shape", "export"], ["shape", "import"], ["shape", "compare"], ["shape", "pareto"], ["shape", "family"],
          ["fill"], ["drum"], ["pile"], ["tester"], ["demo"],
          ["observe"], ["observe", "tube"], ["observe", "pile"], ["observe", "drum"], ["observe", "tester"],
+         ["compare"], ["compare", "tube"], ["campaign"], ["campaign", "run"], ["campaign", "work"], ["campaign", "status"], ["campaign", "export"], ["calibrate"],
          ["mesh"], ["mesh", "check"], ["mesh", "make"], ["mesh", "assets"],
          ["case"], ["case", "new"], ["case", "check"], ["case", "schema"], ["case", "reference"],
          ["diagnose"], ["diagnose", "audit"], ["diagnose", "plan"], ["diagnose", "run"], ["diagnose", "report"],
@@ -17,14 +18,14 @@ class Usage(PelletlabTest):
     def test_help_of_every_verb_has_an_example(self):
         for verb in VERBS:
             help_text = self.succeeds(*verb, "--help").out
-            if verb in (["case"], ["mesh"], ["observe"], ["diagnose"], ["diagnose", "blind"]):  # groups: their verbs are listed, each with its example
+            if verb in (["case"], ["mesh"], ["observe"], ["compare"], ["campaign"], ["diagnose"], ["diagnose", "blind"]):  # groups: their verbs are listed, each with its example
                 self.assertIn("example: pelletlab", help_text, verb)
             else:
                 self.assertIn("example: pelletlab " + " ".join(verb), help_text, verb)
 
     def test_help_lists_every_verb_and_shows_the_chain(self):
         text = self.succeeds("--help").out
-        for verb in ("shape", "fill", "drum", "pile", "tester", "observe", "demo", "mesh", "case", "diagnose"):
+        for verb in ("shape", "fill", "drum", "pile", "tester", "observe", "compare", "campaign", "calibrate", "demo", "mesh", "case", "diagnose"):
             self.assertRegex(text, rf"(?m)^\s+{verb}\b")
         self.assertIn("pelletlab shape", text)
 
