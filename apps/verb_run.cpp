@@ -55,7 +55,7 @@ void add_pile_verb(CLI::App& app) {
 
 void add_tester_verb(CLI::App& app) {
     add_run_verb(app, Rig::tester, "tester",
-                 "Turn an attrition tester (ASTM D4058): the pellet cloud at eight baffle angles, release angle\n"
+                 "Turn an attrition tester (ASTM D4058): the pellet cloud at eight baffle angles, collision energies\n"
                  "  example: pelletlab tester examples/attrition_40rpm.toml --set pellet.count=300");
 }
 

@@ -1,9 +1,13 @@
 #include "experiments/attrition_tester.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <numbers>
+#include <span>
+#include <type_traits>
 
 #include "core/error.hpp"
 #include "meshes/makers.hpp"
@@ -25,10 +29,13 @@ double turn_time(const Case& c) {
     return full_turn / std::abs(c.tester.speed);
 }
 
+double whole_turns(const Case& c) {
+    return std::floor(c.time.measure / turn_time(c) + 1e-9);
+}
+
 /// Whole turns in time.measure; a measurement shorter than a turn stays as it is, and its status says so.
 double measured_time(const Case& c) {
-    const double turns = std::floor(c.time.measure / turn_time(c) + 1e-9);
-    return turns >= 1.0 ? turns * turn_time(c) : c.time.measure;
+    return whole_turns(c) >= 1.0 ? whole_turns(c) * turn_time(c) : c.time.measure;
 }
 
 TriangleMesh baffle_mesh(const Case& c) {
@@ -66,6 +73,44 @@ void start_rotation(solver::Simulation& simulation, double speed) {
     }
 }
 
+/// ContactEvents are nothing but numbers: a record of all kinds for the memory of the stage.
+static_assert(std::is_trivially_copyable_v<solver::ContactEvents> && sizeof(solver::ContactEvents) % sizeof(double) == 0);
+constexpr std::size_t record_size = sizeof(solver::ContactEvents) / sizeof(double);
+
+void remember(std::vector<double>& memory, const solver::Simulation& now) {
+    for (const solver::ContactEvents& kind : now.contact_events()) {
+        memory.resize(memory.size() + record_size);
+        std::memcpy(memory.data() + memory.size() - record_size, &kind, sizeof kind);
+    }
+}
+
+void add(solver::ContactEvents& sum, const solver::ContactEvents& part) {
+    std::array<double, record_size> a{}, b{};
+    std::memcpy(a.data(), &sum, sizeof sum);
+    std::memcpy(b.data(), &part, sizeof part);
+    for (std::size_t k = 0; k < record_size; ++k) a[k] += b[k];
+    std::memcpy(&sum, a.data(), sizeof sum);
+}
+
+/// Collisions of pellets with each other, with shell and end plates, and with the baffle; `memory` holds a record of all kinds after each turn.
+void add_all_collisions(Observables& observables, std::span<const double> memory, const solver::Simulation& simulation, double turn_time,
+                        const TimeWindow& window) {
+    const std::vector<solver::WallDefinition>& walls = simulation.definition().walls;
+    const std::size_t kinds = 1 + walls.size(), turns = memory.size() / (kinds * record_size), pellets = simulation.bodies().size();
+    std::vector<solver::ContactEvents> between(1), with_walls(1), with_baffle(1);  // nothing at the beginning
+    for (std::size_t turn = 0; turn < turns; ++turn) {
+        std::vector<solver::ContactEvents> record(kinds);
+        for (std::size_t k = 0; k < kinds; ++k) std::memcpy(&record[k], memory.data() + (turn * kinds + k) * record_size, sizeof record[k]);
+        between.push_back(record[0]);
+        with_walls.emplace_back();
+        with_baffle.emplace_back();
+        for (std::size_t w = 0; w < walls.size(); ++w) add(walls[w].name == "baffle" ? with_baffle.back() : with_walls.back(), record[1 + w]);
+    }
+    add_collisions(observables, "pellets", between, turn_time, pellets, window);
+    add_collisions(observables, "wall", with_walls, turn_time, pellets, window);
+    if (walls.back().name == "baffle") add_collisions(observables, "baffle", with_baffle, turn_time, pellets, window);
+}
+
 }  // namespace
 
 packing::RunResult run_tester(const Case& c, const packing::RunInputs& inputs, const std::function<packing::FrameSink(const TrajectoryHeader&)>& open_sink,
@@ -73,6 +118,7 @@ packing::RunResult run_tester(const Case& c, const packing::RunInputs& inputs, c
     if (c.rig != Rig::tester) throw bad_input("the case '" + c.name + "' is not an attrition tester", "set rig = \"tester\"");
     if (c.pellet.count == 0) throw bad_input("pellet.count is 0: a tester needs a number of pellets", "set pellet.count");
     solver::SimulationDefinition definition = packing::define_simulation(c, inputs, {});
+    definition.physics.energy_book = true;
     const RigidTemplate& pellet = definition.templates.front();
     const packing::InsertionRegion region = packing::lens_region(pellet, c.pellet.count, c.insertion.packing_fraction, c.tester.diameter, c.tester.length);
     definition.walls = tester_walls(c, region);
@@ -109,12 +155,23 @@ packing::RunResult run_tester(const Case& c, const packing::RunInputs& inputs, c
     measure.duration = measured_time(c);
     measure.frame_interval = c.output.frame_interval;
     measure.watch_interval = watch_interval;
-    measure.memory = {simulation.time(), static_cast<double>(course.frames_stored())};  // its first time, its first frame
+    // What the stage remembers: its first time, its first frame, records of the contacts after each turn but the last.
+    const auto turns = static_cast<std::size_t>(std::max(1.0, whole_turns(c)));
+    const double each = measure.duration / static_cast<double>(turns);
+    measure.memory = {simulation.time(), static_cast<double>(course.frames_stored())};
+    measure.watch = [&](const solver::Simulation& now, std::vector<double>& memory) {
+        const std::size_t taken = (memory.size() - 2) / ((1 + now.definition().walls.size()) * record_size);
+        if (taken + 1 < turns && now.time() - memory[0] >= static_cast<double>(taken + 1) * each - 0.5 * c.time.step) remember(memory, now);
+        return false;
+    };
     if (course.is_catching_up()) {
         for (auto k = static_cast<std::size_t>(keeping.from->memory.at(1)); k < course.frames_stored(); ++k) measured.frames.push_back(course.stored_frame(k));
+    } else {
+        simulation.record_contact_events();
     }
     measuring = true;
     course.run(measure);
+    remember(measure.memory, simulation);
 
     const TimeWindow window{measure.memory.at(0), measure.memory.at(0) + measure.duration};
     const double spun = static_cast<double>(packing::steps_in(c.time.spin_up, c.time.step)) * c.time.step;
@@ -124,6 +181,7 @@ packing::RunResult run_tester(const Case& c, const packing::RunInputs& inputs, c
                                                      {0.5 * c.tester.diameter, c.tester.length, c.tester.baffle_height, c.tester.speed, c.tester.baffle_start,
                                                       window.begin - turned, c.measurement.velocity_grid},
                                                      window);
+    add_all_collisions(result.observables, std::span(measure.memory).subspan(2), simulation, each, window);
     packing::add_contact_figures(result.observables, simulation, course.meter);
     result.state_hash = simulation.state_hash();
     result.steps = course.meter.steps;

@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "solver/detail/checkpoint_bytes.hpp"
 #include "solver/detail/motion.hpp"
 #include "solver/detail/state.hpp"
 
@@ -20,8 +21,11 @@ namespace pelletlab::solver {
 
 namespace {
 
+using Writer = detail::CheckpointWriter;
+using Reader = detail::CheckpointReader;
+
 constexpr std::array<char, 8> magic{'P', 'L', 'A', 'B', 'C', 'K', 'P', 'T'};
-constexpr std::uint32_t version = 4;
+constexpr std::uint32_t version = 5;
 
 struct Header {
     std::array<char, 8> magic;
@@ -43,68 +47,6 @@ std::uint64_t checksum_of(std::string_view bytes) {
     hash.add(rest);
     return hash.value();
 }
-
-class Writer {
-public:
-    template <class T>
-    void put(const T& value) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
-    }
-    void put(const Vec3& v) {
-        for (int k = 0; k < 3; ++k) put(v[k]);
-    }
-    void put(const Quat& q) {
-        for (int k = 0; k < 4; ++k) put(q.coeffs()[k]);
-    }
-    std::string bytes;
-};
-
-class Reader {
-public:
-    Reader(std::string_view bytes, const std::string& file) : bytes_(bytes), file_(file) {}
-    template <class T>
-    T get() {
-        need(sizeof(T));
-        T value;
-        std::memcpy(&value, bytes_.data() + at_, sizeof(T));
-        at_ += sizeof(T);
-        return value;
-    }
-    double get_number() {
-        const auto x = get<double>();
-        if (!std::isfinite(x)) broken();
-        return x;
-    }
-    Vec3 get_vec() {
-        Vec3 v;
-        for (int k = 0; k < 3; ++k) v[k] = get_number();
-        return v;
-    }
-    Quat get_quat() {
-        Quat q;
-        for (int k = 0; k < 4; ++k) q.coeffs()[k] = get_number();
-        return q;
-    }
-    /// A count of things of `size` bytes each that must fit into what is left.
-    std::size_t get_count(std::size_t size) {
-        const auto n = get<std::uint64_t>();
-        if (n > (bytes_.size() - at_) / size) broken();
-        return static_cast<std::size_t>(n);
-    }
-    void end() const {
-        if (at_ != bytes_.size()) broken();
-    }
-    [[noreturn]] void broken() const { throw bad_input("the checkpoint contradicts itself", "it is damaged: use an older one", {file_}); }
-
-private:
-    std::string_view bytes_;
-    std::string file_;
-    std::size_t at_ = 0;
-    void need(std::size_t n) const {
-        if (n > bytes_.size() - at_) broken();
-    }
-};
 
 struct SavedSpring {
     std::uint32_t i, j;
@@ -133,6 +75,7 @@ struct Saved {
     };
     std::vector<SavedWall> walls;
     std::array<double, 9> book{};  ///< stored, gone, work of body forces
+    detail::ContactRecorder recorder;
 };
 
 void put_motion_extras(Writer& w, const WallMotion& m) {
@@ -193,6 +136,7 @@ std::string payload_of(const Simulation::State& s) {
             }
         }
     }
+    detail::put_recorder(w, s.recorder);
     return std::move(w.bytes);
 }
 
@@ -240,6 +184,7 @@ Saved read_payload(std::string_view bytes, const std::string& file, const Simula
         }
         saved.walls.push_back(std::move(w));
     }
+    saved.recorder = detail::get_recorder(r, s.walls.size(), saved.steps, n);
     r.end();
     for (std::size_t i = 0; i < n; ++i) {
         const bool sound =
@@ -281,6 +226,7 @@ bool put_in_place(Simulation::State& s, const Saved& saved) {
     std::copy_n(saved.book.begin(), 3, s.book.stored.begin());
     std::copy_n(saved.book.begin() + 3, 5, s.book.gone.begin());
     s.book.body_force_work = saved.book[8];
+    s.recorder = saved.recorder;
     s.bodies = saved.bodies;
     for (std::size_t k = 0; k < s.walls.size(); ++k) {
         detail::Wall& wall = s.walls[k];
@@ -365,51 +311,5 @@ void Simulation::restore(std::string_view bytes, const std::string& name) {
     put_in_place(s, read_payload(before, name, s));
     throw bad_input("the checkpoint holds contacts of spheres that are far apart", "it is damaged: use an older one", {name});
 }
-
-namespace detail {
-
-std::uint64_t fingerprint(const SimulationDefinition& d) {
-    Hash hash;
-    for (const RigidTemplate& t : d.templates) {
-        hash.add(static_cast<std::uint64_t>(t.spheres.size()));
-        for (const Sphere& s : t.spheres) hash.add(s.centre), hash.add(s.radius);
-        hash.add(t.mass_properties.mass);
-        hash.add(t.mass_properties.principal_inertia);
-    }
-    const auto add_material = [&](const ElasticMaterial& m) { hash.add(m.shear_modulus), hash.add(m.poisson_ratio); };
-    const auto add_contact = [&](const PairParameters& p) {
-        for (const double x : {p.restitution, p.sliding_friction, p.rolling_friction, p.kinetic_friction_ratio, p.relaxation_time, p.attraction_force,
-                               p.cohesion_energy_density, p.work_of_adhesion})
-            hash.add(x);
-    };
-    const Physics& p = d.physics;
-    for (const auto choice : {static_cast<int>(p.contact), static_cast<int>(p.rolling), static_cast<int>(p.cohesion), static_cast<int>(p.clump_contacts)})
-        hash.add(static_cast<std::uint64_t>(choice));
-    for (const double x : {p.linear_stiffness, p.rolling_damping, p.rolling_damping_sliding, p.friction_decay_speed, p.liquid.surface_tension,
-                           p.liquid.contact_angle, p.liquid.bridge_volume})
-        hash.add(x);
-    add_material(d.pellet_material);
-    add_contact(d.pellet_contact);
-    for (const WallDefinition& w : d.walls) {
-        hash.add(w.name);
-        hash.add(static_cast<std::uint64_t>(w.mesh.vertices.size()));
-        for (const Vec3& v : w.mesh.vertices) hash.add(v);
-        hash.add(static_cast<std::uint64_t>(w.mesh.faces.size()));
-        for (const Triangle& f : w.mesh.faces)
-            for (const std::uint32_t v : f) hash.add(std::uint64_t{v});
-        add_material(w.material);
-        add_contact(w.contact);
-        hash.add(w.feature_angle);
-        hash.add(static_cast<std::uint64_t>(w.exact.kind));
-        hash.add(w.exact.point), hash.add(w.exact.axis), hash.add(w.exact.half_size);
-        for (const double x : {w.exact.start.x(), w.exact.start.y(), w.exact.end.x(), w.exact.end.y()}) hash.add(x);
-    }
-    hash.add(d.gravity);
-    hash.add(d.body_forces.air.density), hash.add(d.body_forces.air.viscosity), hash.add(d.body_forces.attraction);
-    hash.add(d.time_step);
-    return hash.value();
-}
-
-}  // namespace detail
 
 }  // namespace pelletlab::solver

@@ -21,6 +21,7 @@ void pair_contact_forces(PairList& list, std::size_t block_index, const LargeVec
                        block.springs.data(),
                        list.spring_rows,
                        &list.books[block_index],
+                       list.pair_books.empty() ? nullptr : list.pair_books.data() + begin,
                        list.loads_j.data() + begin,
                        list.touching.data() + begin,
                        list.own_loads.data(),

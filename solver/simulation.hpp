@@ -16,6 +16,7 @@
 #include "core/triangle_mesh.hpp"
 #include "core/vec.hpp"
 #include "solver/body_forces.hpp"
+#include "solver/contact_events.hpp"
 #include "solver/energy_book.hpp"
 #include "solver/exact_surface.hpp"
 #include "solver/physics.hpp"
@@ -168,6 +169,12 @@ public:
     SearchReport search_report() const;
     std::vector<StageTime> stage_times() const;
     EnergyReport energy() const;
+
+    /// From the next step on contacts are followed from first to last touch (solver/contact_events.hpp); what was recorded before is forgotten. Costs some speed
+    /// and changes no bit of the motion. Throws Error(bad_input) without Physics::energy_book, from which the energies come.
+    void record_contact_events();
+    /// Pellet–pellet, then one entry a wall; empty when nothing is recorded.
+    std::vector<ContactEvents> contact_events() const;
 
     /// Hash over every bit that decides the future: poses, velocities, contact history, wall poses.
     std::uint64_t state_hash() const;

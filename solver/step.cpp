@@ -52,6 +52,7 @@ void Simulation::step() {
     s.sum_wall_loads();
     s.book_contacts();
     s.book_work();
+    s.record_events();
     watch.lap(5);
 }
 
@@ -127,16 +128,19 @@ void Simulation::State::find_neighbours_if_needed(double furthest2) {
 }
 
 void Simulation::State::compute_pair_forces(const detail::StepClock& clock) {
+    pairs.pair_books.resize(recorder.started != 0 ? pairs.records.size() : 0);
     parallel_for(pairs.blocks.size(), 1, [&](std::size_t block) {
         detail::pair_contact_forces(pairs, block, kinematics, templates, balls, pellet_law, pellet_contact, *kernels, clock);
     });
 }
 
 void Simulation::State::compute_wall_forces(const detail::StepClock& clock) {
-    for (detail::Wall& wall : walls)
+    for (detail::Wall& wall : walls) {
+        wall.body_books.resize(recorder.started != 0 ? bodies.size() : 0);
         parallel_blocks(bodies.size(), body_grain, [&](std::size_t begin, std::size_t end) {
             detail::wall_contact_forces(wall, begin / body_grain, begin, end, kinematics, bodies, templates, wall_skins, clock);
         });
+    }
 }
 
 void Simulation::State::gather_forces_and_kick(double kick) {

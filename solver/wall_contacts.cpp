@@ -282,6 +282,12 @@ void wall_contact_forces(Wall& wall, std::size_t block, std::size_t begin, std::
         book = LoadRow{};
         for (std::size_t c = 0; c < batch.size; ++c)
             for (int column = 0; column < 8; ++column) book.row[column] += batch.book[c].row[column];
+        if (!wall.body_books.empty())
+            for (const Active& active : s.active) {
+                LoadRow& sum = wall.body_books[active.body] = LoadRow{};
+                for (std::uint32_t c = active.first_contact; c < active.contact_end; ++c)
+                    for (int column = 0; column < 8; ++column) sum.row[column] += batch.book[c].row[column];
+            }
     }
 
     for (const Active& active : s.active) {

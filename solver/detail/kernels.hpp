@@ -177,6 +177,7 @@ struct PairBlockView {
     Spring* springs;
     std::size_t spring_rows;     ///< per candidate
     LoadRow* book;               ///< out: sum over the contacts of the block, where the law books
+    LoadRow* pair_books;         ///< out, per touching pair: the same sum over its contacts; null: nobody wants it
     LoadRow* loads_j;            ///< out, per pair: what the second body feels, world, about its centre; only where touching
     std::uint8_t* touching;      ///< out, per pair
     LoadRow* own_loads;          ///< out, per body: what it feels from the pairs in which it is the first; only where own_touching

@@ -237,6 +237,15 @@ inline void share_loads(const PairScratch& s, ContactBatch& b) {
     }
 }
 
+inline void book_pairs(const PairBlockView& block, const PairScratch& s, const ContactBatch& b) {
+    for (std::size_t a = 0; a < s.active_count; ++a) {
+        LoadRow& sum = block.pair_books[s.active[a]];
+        for (double& column : sum.row) column = 0.0;
+        for (std::uint32_t c = s.first_contact[a]; c < s.first_contact[a + 1]; ++c)
+            for (int k = 0; k < 8; ++k) sum.row[k] += b.book[c].row[k];
+    }
+}
+
 template <class L, class S, bool sticky>
 void pair_forces(ContactKernel contact, const LawRow& law, const PairBlockView& block, PairScratch& s, ContactBatch& b, const StepClock& clock) {
     const bool keep_history = clock.spring_step > 0.0;
@@ -263,9 +272,11 @@ void pair_forces(ContactKernel contact, const LawRow& law, const PairBlockView& 
     find_slots<L>(block, s, block.spring_rows > 1);
     if (law.shared) share_loads(s, b);
     contact(law, b, s.slots, clock);
-    if (law.booked)
+    if (law.booked) {
         for (std::size_t c = 0; c < b.size; ++c)
             for (int k = 0; k < 8; ++k) block.book->row[k] += b.book[c].row[k];
+        if (block.pair_books != nullptr) book_pairs(block, s, b);
+    }
     write_loads<L>(block, s, b);
 }
 

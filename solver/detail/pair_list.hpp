@@ -48,6 +48,7 @@ struct PairList : Pairs {
     double hold = 0.0;                                    ///< [m], gap up to which spheres that have touched may hold together
     std::size_t spring_rows = 1;                          ///< of history a contact
     std::vector<LoadRow> books;                           ///< per block, where the law books; see BookColumn
+    std::vector<LoadRow> pair_books;                      ///< per pair, valid where touching; empty: nobody wants it
     std::uint64_t rebuilds = 0, rebuilt_at = 0;           ///< rebuilt_at: step
     double smallest_skin = 0.0, largest_skin = 0.0;       ///< [m], between which adapt_skin() may choose; both 0: it stays as it is
     double spread = 0.0;                                  ///< mean distance in memory between the bodies of a pair

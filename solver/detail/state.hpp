@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/detail/bodies.hpp"
+#include "solver/detail/contact_recorder.hpp"
 #include "solver/detail/kernels.hpp"
 #include "solver/detail/pair_contacts.hpp"
 #include "solver/detail/pair_list.hpp"
@@ -45,6 +46,7 @@ struct Simulation::State {
         double body_force_work = 0.0;    ///< [J]
     };
     Book book;
+    detail::ContactRecorder recorder;  ///< of contact events; reads, and decides nothing
 
     std::vector<detail::DriftResult> drift_results;  ///< scratch, one a block of bodies
     std::array<double, 6> stage_seconds{};           ///< see stage_names
@@ -66,6 +68,7 @@ struct Simulation::State {
     void compute_body_forces();
     void book_contacts();
     void book_work();
+    void record_events();
 
     /// Forces and torques at the present instant, springs untouched: after bodies were added.
     void look_at_forces();

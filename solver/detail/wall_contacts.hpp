@@ -74,7 +74,8 @@ struct Wall {
     LargeVector<WallWatch> watches;  ///< one a body
     LargeVector<LoadRow> loads;      ///< on each body, world, about its centre of mass; valid where touching
     std::vector<std::uint8_t> touching;
-    std::vector<LoadRow> books;  ///< per block of bodies, where the law books; see BookColumn
+    std::vector<LoadRow> books;       ///< per block of bodies, where the law books; see BookColumn
+    std::vector<LoadRow> body_books;  ///< per body, valid where touching; empty: nobody wants it
 };
 
 /// Places the wall where its motion has it after `step` steps of dt.

@@ -76,6 +76,9 @@ class Runs(PelletlabTest):
         self.assertEqual(self.read("out-1/observables.json"), self.read("out-2/observables.json"))
         values = {one["name"]: one["value"] for one in strict_json(self.read("out-1/observables.json"))["values"]}
         self.assertAlmostEqual(values["turns_measured"], 2.0, delta=1e-6)
+        for kind in ("pellets", "wall", "baffle"):
+            self.assertGreater(values["collision_rate_" + kind], 0.0, kind)
+            self.assertLess(values["mean_normal_dissipation_" + kind], values["mean_total_dissipation_" + kind], kind)
 
     def test_a_case_of_another_rig_names_the_verb(self):
         self.fails(2, "fill", self.new_case("pile"), says=["pile", "pelletlab pile"])

@@ -59,6 +59,17 @@ TEST(AttritionTester, LiftsPelletsOnTheBaffleAndDropsThem) {
     EXPECT_GT(find(result.observables, "baffle_load_largest").value, 5.0);
     EXPECT_GT(find(result.observables, "release_angle").value, 45.0);
     EXPECT_LT(find(result.observables, "release_angle").value, 270.0);
+    // Collisions of each kind; the spectrum is all of them.
+    for (const char* kind : {"_pellets", "_wall", "_baffle"}) {
+        const double rate = find(result.observables, std::string("collision_rate") + kind).value;
+        EXPECT_GT(rate, 0.0) << kind;
+        double sum = 0.0;
+        for (const double part : profile_of(result.observables, std::string("spectrum_impact_energy") + kind).value) sum += part;
+        EXPECT_NEAR(sum, rate, 1e-9 * rate) << kind;
+        // No fall in the drum is higher than its diameter, so no mean impact costs more than m g D and the speed of its rim.
+        const double mass = dumbbell_inputs().clump.rigid.mass_properties.mass, rim = c.tester.speed * 0.5 * c.tester.diameter;
+        EXPECT_LT(find(result.observables, std::string("mean_impact_energy") + kind).value, 1e6 * mass * (9.81 * c.tester.diameter + 0.5 * rim * rim)) << kind;
+    }
     // The walls turn together, by ω t since the rotation began.
     EXPECT_TRUE(last.wall_poses[3].orientation.isApprox(last.wall_poses[0].orientation, 1e-12));
 }
@@ -110,7 +121,7 @@ TEST(AttritionTester, TakesTheUsersOwnDrumAndBaffle) {
     c.tester.mesh_file = "drum.stl";
     c.tester.baffle_mesh_file = "baffle.stl";
     c.tester.mesh_unit = "mm";
-    EXPECT_GT(find(run_tester(c, dumbbell_inputs(), {}, {}).observables, "baffle_load_largest").value, 0.0);
+    EXPECT_GT(find(run_tester(c, dumbbell_inputs(), {}, {}).observables, "collision_rate_baffle").value, 0.0);
     c.tester.mesh_unit = "m";
     EXPECT_THROW(run_tester(c, dumbbell_inputs(), {}, {}), Error) << "a drum of 50 m";
     std::filesystem::remove_all(folder);
@@ -122,4 +133,30 @@ TEST(AttritionTester, RefusesABaffleAmongTheLoosePellets) {
     EXPECT_THROW(run_tester(c, dumbbell_inputs(), {}, {}), Error);
     c.rig = Rig::drum;
     EXPECT_THROW(run_tester(c, dumbbell_inputs(), {}, {}), Error);
+}
+
+TEST(AttritionTester, CollisionsAreCountedTurnByTurn) {
+    // Ten pellets; 30 events of 1 uJ in the first turn of 2 s, 50 in the second.
+    std::vector<solver::ContactEvents> records(3);
+    const std::size_t bin = solver::spectrum_bin(1e-6);
+    const std::array<double, 3> events{0.0, 30.0, 80.0};
+    for (std::size_t k = 0; k < 3; ++k) {
+        records[k].complete = events[k];
+        records[k].dissipated = 2e-6 * events[k];
+        records[k].dissipated_complete = 1.5e-6 * events[k];
+        records[k].spectra[0].count[bin] = events[k];
+        records[k].spectra[0].energy[bin] = 1e-6 * events[k];
+    }
+    Observables result;
+    add_collisions(result, "pellets", records, 2.0, 10, {0.0, 4.0});
+    EXPECT_NEAR(find(result, "collision_rate_pellets").value, 0.5 * (30.0 + 50.0) / 2.0 / 10.0, 1e-12);
+    EXPECT_NEAR(find(result, "collision_rate_pellets").standard_error, 0.5, 1e-12);  // 1.5 and 2.5: s = √½, s/√2
+    EXPECT_NEAR(find(result, "mean_impact_energy_pellets").value, 1.0, 1e-12);
+    EXPECT_NEAR(find(result, "dissipated_power_pellets").value, 0.5 * (0.03 + 0.05), 1e-12);  // mW
+    EXPECT_NEAR(find(result, "dissipated_in_collisions_pellets").value, 0.75, 1e-12);
+    const Profile& spectrum = profile_of(result, "spectrum_impact_energy_pellets");
+    ASSERT_EQ(spectrum.axis.size(), 1u);
+    EXPECT_NEAR(spectrum.value[0], 2.0, 1e-12);
+    EXPECT_NEAR(std::log10(spectrum.axis[0]), 0.0, 1.0 / 8.0);
+    expect_documented(result);
 }
