@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <numbers>
 #include <span>
-#include <type_traits>
 
 #include "core/error.hpp"
 #include "meshes/makers.hpp"
@@ -74,22 +73,27 @@ void start_rotation(solver::Simulation& simulation, double speed) {
 }
 
 /// ContactEvents are nothing but numbers: a record of all kinds for the memory of the stage.
-static_assert(std::is_trivially_copyable_v<solver::ContactEvents> && sizeof(solver::ContactEvents) % sizeof(double) == 0);
 constexpr std::size_t record_size = sizeof(solver::ContactEvents) / sizeof(double);
+using Record = std::array<double, record_size>;
 
 void remember(std::vector<double>& memory, const solver::Simulation& now) {
     for (const solver::ContactEvents& kind : now.contact_events()) {
-        memory.resize(memory.size() + record_size);
-        std::memcpy(memory.data() + memory.size() - record_size, &kind, sizeof kind);
+        const auto record = std::bit_cast<Record>(kind);
+        memory.insert(memory.end(), record.begin(), record.end());
     }
 }
 
+solver::ContactEvents recall(std::span<const double> memory, std::size_t index) {
+    Record record{};
+    std::copy_n(memory.begin() + static_cast<std::ptrdiff_t>(index * record_size), record_size, record.begin());
+    return std::bit_cast<solver::ContactEvents>(record);
+}
+
 void add(solver::ContactEvents& sum, const solver::ContactEvents& part) {
-    std::array<double, record_size> a{}, b{};
-    std::memcpy(a.data(), &sum, sizeof sum);
-    std::memcpy(b.data(), &part, sizeof part);
+    auto a = std::bit_cast<Record>(sum);
+    const auto b = std::bit_cast<Record>(part);
     for (std::size_t k = 0; k < record_size; ++k) a[k] += b[k];
-    std::memcpy(&sum, a.data(), sizeof sum);
+    sum = std::bit_cast<solver::ContactEvents>(a);
 }
 
 /// Collisions of pellets with each other, with shell and end plates, and with the baffle; `memory` holds a record of all kinds after each turn.
@@ -100,7 +104,7 @@ void add_all_collisions(Observables& observables, std::span<const double> memory
     std::vector<solver::ContactEvents> between(1), with_walls(1), with_baffle(1);  // nothing at the beginning
     for (std::size_t turn = 0; turn < turns; ++turn) {
         std::vector<solver::ContactEvents> record(kinds);
-        for (std::size_t k = 0; k < kinds; ++k) std::memcpy(&record[k], memory.data() + (turn * kinds + k) * record_size, sizeof record[k]);
+        for (std::size_t k = 0; k < kinds; ++k) record[k] = recall(memory, turn * kinds + k);
         between.push_back(record[0]);
         with_walls.emplace_back();
         with_baffle.emplace_back();

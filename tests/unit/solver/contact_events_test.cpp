@@ -156,7 +156,9 @@ TEST(ContactEvents, AGlancingImpactLosesToFrictionAsWell) {
     const ContactEvents wall = s.contact_events()[1];
     const double normal = sum(spectrum(wall, EventEnergy::normal).energy), total = sum(spectrum(wall, EventEnergy::total).energy);
     EXPECT_GT(total, 1.2 * normal);
-    EXPECT_NEAR(total, before - s.energy().kinetic_translation - s.energy().kinetic_rotation, 2e-3 * before);
+    // A tangential spring whose stiffness falls as the spheres part loses energy to no friction: the book has it as `fed`, here below zero.
+    EXPECT_LT(s.energy().fed, 0.0);
+    EXPECT_NEAR(total - s.energy().fed, before - s.energy().kinetic_translation - s.energy().kinetic_rotation, 2e-3 * before);
     const double impact = 0.5 * ball().mass_properties.mass * 0.3 * 0.3;
     EXPECT_NEAR(sum(spectrum(wall, EventEnergy::impact).energy), impact, 0.01 * impact) << "the normal approach alone";
 }
