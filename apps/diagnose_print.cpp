@@ -38,11 +38,13 @@ void print_plan(const Diagnosis& d) {
 void print_answers(const Diagnosis& d) {
     print_line(fmt::format("\n== {}\n  {}", verdict_code(d.verdict), d.statement));
     print_line("\n== Where");
-    std::vector<std::vector<std::string>> where{{"group", "gap", "90 % interval", "p", "", "left out: z"}};
+    std::vector<std::vector<std::string>> where{{"group", "gap", "90 % interval", "p", "", "explained", "90 % interval", "", "left out: z"}};
     for (const auto& w : d.where)
         where.push_back({w.group, number(w.gap), number(w.lower) + " to " + number(w.upper), number(w.p, "{:.4f}"), w.discovery ? "GAP" : "",
+                         number(w.explained), number(w.explained_lower) + " to " + number(w.explained_upper), w.explained_discovery ? "GAP" : "",
                          number(w.left_out_z, "{:.1f}")});
     print_table(where);
+    print_line("  first GAP: by the group's own data; second: by the explanation, for which all data speak, and only as right as that");
     print_line("\n== Which");
     std::vector<std::vector<std::string>> which{{"explanation", "probability", "chi2", "amplitude (90 %)"}};
     for (const auto& h : d.hypotheses) {

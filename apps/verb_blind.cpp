@@ -20,7 +20,8 @@
 namespace pelletlab::diagnosis {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BlindLabel, id, kind, configuration, effects, amplitude, detectability, separability, regions, silent)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BlindVerdict, id, verdict, named, discoveries, inclusion, probability_of_open, best_p, credible_set, rules)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BlindVerdict, id, verdict, named, discoveries, measured_discoveries, inclusion, probability_of_open, probability_of_none,
+                                   pair_gain, pair_confirmed, best_p, credible_set, rules)
 
 }  // namespace pelletlab::diagnosis
 

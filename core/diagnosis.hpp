@@ -48,8 +48,11 @@ struct DiagnosisWhere {
     std::string group, observable, region, regime, unit;
     double gap = 0.0, lower = 0.0, upper = 0.0;  ///< mean of measured − best baseline, 90 % interval [unit]
     double statistic = 0.0, degrees = 0.0, p = 1.0;
-    bool discovery = false;
-    double left_out_z = 0.0;  ///< standardised miss of the group's mean when the fit does not see the group
+    bool discovery = false;                                                ///< by the group's own data
+    double left_out_z = 0.0;                                               ///< standardised miss of the group's mean when the fit does not see the group
+    double explained = 0.0, explained_lower = 0.0, explained_upper = 0.0;  ///< the gap that the weighed explanations predict here, 90 % interval [unit]
+    double explained_probability = 0.0;                                    ///< that it is a gap: Σ (gap/σ)² > 1 over the group
+    bool explained_discovery = false;                                      ///< by the explanation, which all data speak for
 };
 
 struct DiagnosisHypothesis {
@@ -99,7 +102,8 @@ struct Diagnosis {
     };
     std::vector<Inclusion> inclusion;
     double temperature = 1.0, claim_threshold = 0.9, adequacy_threshold = 0.05;
-    double baseline_p = 1.0, best_p = 1.0;  ///< adequacy
+    double gap_threshold = 0.5, open_threshold = 0.5;  ///< of 1 − P(parameters only), of P(none of these)
+    double baseline_p = 1.0, best_p = 1.0;             ///< adequacy
     std::string best_name, misfit_family;
     std::vector<std::string> nearest;  ///< library signatures closest to what is left, with cosine
     double transfer_p = not_known;     ///< of the miss of data that were not calibrated on; NaN when nothing is marked as calibration

@@ -57,7 +57,7 @@ struct Candidate {
 
 struct DiagnosisSettings {
     std::uint64_t seed = 1;
-    int bootstrap = 400;
+    int bootstrap = 1000;
     int recalibration_cases = 120;
     bool scatter_of_one_run = false;  ///< the reality scatters like a single run of the campaign, on top of the stated uncertainties
     double tolerance_correlation = 0.5;

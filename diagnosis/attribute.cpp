@@ -23,11 +23,16 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
 
 }  // namespace
 
-Adequacy test_adequacy(const Problem& problem, const Fit& fit, int draws, std::uint64_t seed) {
+Eigen::MatrixXd noise_draws(const Problem& problem, int draws, std::uint64_t seed, std::uint64_t stream) {
+    Eigen::MatrixXd noise(problem.fitted.value.size(), draws);
+    RandomStream random(seed, stream);
+    for (int d = 0; d < draws; ++d) noise.col(d) = inference::draw_student(random, noise.rows(), problem.model->emulator.nu());
+    return noise;
+}
+
+Adequacy test_adequacy(const Problem& problem, const Fit& fit, const Eigen::MatrixXd& noise) {
     const Eigen::Index n = fit.mode.residual.size();
-    const Eigen::MatrixXd& j = fit.mode.jacobian;
-    // What the fit takes out of noise: M = 1 − J P⁻¹ Jᵀ with the posterior precision P.
-    const Eigen::MatrixXd m = Eigen::MatrixXd::Identity(n, n) - j * fit.mode.precision.ldlt().solve(j.transpose());
+    const Eigen::MatrixXd m = inference::residual_operator(fit.mode);
     const Eigen::VectorXd sigma = fit.whitener.factor().rowwise().norm();
     const Distortions distortions = generic_distortions(problem, sigma);
     const Eigen::MatrixXd shapes = m * fit.whitener.whiten_columns(distortions.shapes);
@@ -44,28 +49,26 @@ Adequacy test_adequacy(const Problem& problem, const Fit& fit, int draws, std::u
     }
     const Eigen::MatrixXd basis = orthonormal(fit.whitener.whiten_columns(problem.fitted.from_outputs * problem.model->emulator.basis().modes));
     const bool has_rest = basis.cols() + 3 <= n;
-    const auto statistics = [&](const Eigen::VectorXd& r) {
-        std::vector<double> t;
-        for (const auto& q : bases) t.push_back((q.transpose() * r).squaredNorm());
-        t.push_back(r.squaredNorm());
-        if (has_rest) t.push_back((r - basis * (basis.transpose() * r)).squaredNorm());
+    const auto statistics = [&](const Eigen::MatrixXd& r) {  // rows: families; columns: those of r
+        Eigen::MatrixXd t(static_cast<Eigen::Index>(bases.size()) + (has_rest ? 2 : 1), r.cols());
+        Eigen::Index row = 0;
+        for (const auto& q : bases) t.row(row++) = (q.transpose() * r).colwise().squaredNorm();
+        t.row(row++) = r.colwise().squaredNorm();
+        if (has_rest) t.row(row) = t.row(row - 1) - (basis.transpose() * r).colwise().squaredNorm();
         return t;
     };
     names.emplace_back("whole misfit");
     if (has_rest) names.emplace_back("pattern no run has");
-    std::vector<std::vector<double>> reference(names.size());
-    RandomStream random(seed, 0x61646571);
-    for (int d = 0; d < draws; ++d) {
-        const auto t = statistics(m * inference::draw_student(random, n, problem.model->emulator.nu()));
-        for (std::size_t i = 0; i < t.size(); ++i) reference[i].push_back(t[i]);
-    }
-    const auto observed = statistics(fit.mode.residual);
+    const Eigen::MatrixXd reference = statistics(m * noise), observed = statistics(fit.mode.residual);
     std::vector<double> p;
-    for (std::size_t i = 0; i < observed.size(); ++i) p.push_back(inference::reference_p_value(observed[i], reference[i]));
+    for (Eigen::Index i = 0; i < observed.rows(); ++i) {
+        const Eigen::RowVectorXd row = reference.row(i);
+        p.push_back(inference::reference_p_value(observed(i, 0), {row.data(), row.data() + row.size()}));
+    }
     const auto adjusted = inference::holm(p);
     Adequacy result;
     for (std::size_t i = 0; i < names.size(); ++i) {
-        result.parts.push_back({names[i], observed[i], p[i]});
+        result.parts.push_back({names[i], observed(static_cast<Eigen::Index>(i), 0), p[i]});
         if (i == 0 || adjusted[i] < result.p) {
             result.p = adjusted[i];
             result.family = names[i];
@@ -115,9 +118,9 @@ Attribution attribute(const Attributor& attributor, const Eigen::VectorXd& y, do
         a.log_evidence.push_back(a.fits.back().log_evidence);
     }
     normalise(a, hypotheses, temperature, attributor.problem().model->effects());
-    a.baseline_adequacy = test_adequacy(attributor.problem(), a.fits[0], bootstrap, seed);
-    a.adequacy =
-        a.best_closed == 0 ? a.baseline_adequacy : test_adequacy(attributor.problem(), a.fits[static_cast<std::size_t>(a.best_closed)], bootstrap, seed);
+    const Eigen::MatrixXd noise = noise_draws(attributor.problem(), bootstrap, seed, 0x61646571);
+    a.baseline_adequacy = test_adequacy(attributor.problem(), a.fits[0], noise);
+    a.adequacy = a.best_closed == 0 ? a.baseline_adequacy : test_adequacy(attributor.problem(), a.fits[static_cast<std::size_t>(a.best_closed)], noise);
     return a;
 }
 

@@ -32,6 +32,7 @@ struct Fit {
     inference::Mode mode;
     inference::Posterior posterior;
     double log_evidence = 0.0;
+    Eigen::MatrixXd distortion;  ///< open class: δ = distortion · a, a ~ N(0, 1), at the most probable width; points × directions
 };
 
 /// What is computed once for all cases that share model, design and library: starting clouds and the reduced operator.
@@ -84,9 +85,12 @@ struct Adequacy {
     std::vector<Part> parts;
 };
 
-/// Score test on every family of generic distortions, on the whole χ² and on what the basis cannot make; reference by `draws` parametric bootstrap samples with
-/// the fit linearised at its mode; Holm over families.
-Adequacy test_adequacy(const Problem& problem, const Fit& fit, int draws, std::uint64_t seed);
+/// Whitened noise of the fitted data, a column a draw.
+Eigen::MatrixXd noise_draws(const Problem& problem, int draws, std::uint64_t seed, std::uint64_t stream);
+
+/// Score test on every family of generic distortions, on the whole χ² and on what the basis cannot make; reference by parametric bootstrap from the columns of
+/// `noise` with the fit linearised at its mode; Holm over families.
+Adequacy test_adequacy(const Problem& problem, const Fit& fit, const Eigen::MatrixXd& noise);
 
 struct Attribution {
     std::vector<Fit> fits;  ///< one a hypothesis

@@ -44,8 +44,7 @@ std::vector<BaselineRanking> baseline_rankings(const Attributor& attributor, con
     Eigen::VectorXd phi, none;
     attributor.split(attributor.hypotheses()[0], base.mode.psi, phi, none);
     const Eigen::VectorXd centre = 0.5 * (problem.phi_lower + problem.phi_upper);
-    const Eigen::MatrixXd& j = base.mode.jacobian;
-    const Eigen::MatrixXd m = Eigen::MatrixXd::Identity(n, n) - j * base.mode.precision.ldlt().solve(j.transpose());
+    const Eigen::MatrixXd m = inference::residual_operator(base.mode);
     Eigen::MatrixXd raw(n, k), fitted(n, k), physical(n, k);
     for (Eigen::Index e = 0; e < k; ++e) {
         Eigen::VectorXd theta = none;

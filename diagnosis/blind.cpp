@@ -169,10 +169,15 @@ BlindVerdict blind_verdict(const Problem& problem, const Thresholds& thresholds)
     v.id = problem.experiment.name;
     v.verdict = verdict_code(assessment.judgement.verdict);
     for (const int e : assessment.judgement.named) v.named.push_back(name(e));
-    for (const DiagnosisWhere& w : assessment.where)
-        if (w.discovery) v.discoveries.push_back(w.group);
+    for (const DiagnosisWhere& w : assessment.where) {
+        if (w.discovery || w.explained_discovery) v.discoveries.push_back(w.group);
+        if (w.discovery) v.measured_discoveries.push_back(w.group);
+    }
     for (std::size_t e = 0; e < a.inclusion.size(); ++e) v.inclusion[name(static_cast<int>(e))] = a.inclusion[e];
     v.probability_of_open = a.probability_of_open;
+    v.probability_of_none = a.probability_of_none;
+    v.pair_gain = std::isfinite(assessment.pair_gain) ? assessment.pair_gain : 0.0;  // a library of one effect has no pair
+    v.pair_confirmed = assessment.pair_confirmed;
     v.best_p = a.adequacy.p;
     for (const int h : a.credible_set) v.credible_set.push_back(attributor.hypotheses()[static_cast<std::size_t>(h)].name);
     for (const BaselineRanking& rule : baseline_rankings(attributor, problem.fitted.value, a)) {

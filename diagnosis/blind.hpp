@@ -47,9 +47,12 @@ void measure_label(BlindLabel& label, const Campaign& campaign, const Attributor
 
 struct BlindVerdict {
     std::string id, verdict;
-    std::vector<std::string> named, discoveries;
+    std::vector<std::string> named, discoveries;    ///< discoveries: groups found by their own data or by the explanation
+    std::vector<std::string> measured_discoveries;  ///< … by their own data
     std::map<std::string, double> inclusion;
-    double probability_of_open = 0.0, best_p = 1.0;
+    double probability_of_open = 0.0, probability_of_none = 0.0, best_p = 1.0;
+    double pair_gain = 0.0;                                 ///< ln evidence of the most probable pair above the best single effect
+    bool pair_confirmed = false;                            ///< by runs
     std::vector<std::string> credible_set;                  ///< hypothesis names
     std::map<std::string, std::vector<std::string>> rules;  ///< baseline rule → effects ranked
 };

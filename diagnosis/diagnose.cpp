@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "diagnosis/explained_gap.hpp"
 #include "diagnosis/locate.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/quantify.hpp"
@@ -70,13 +72,12 @@ std::vector<std::string> nearest_signatures(const Attributor& attributor, const 
     const Hypothesis& none = attributor.hypotheses()[0];
     Eigen::VectorXd phi, theta;
     attributor.split(none, baseline.mode.psi, phi, theta);
-    const Eigen::MatrixXd& j = baseline.mode.jacobian;
+    const Eigen::MatrixXd m = inference::residual_operator(baseline.mode);
     const Eigen::VectorXd f0 = predict(*problem.model, problem.fitted, phi, theta);
     for (Eigen::Index e = 0; e < theta.size(); ++e) {
         Eigen::VectorXd with = theta;
         with[e] = 0.7;
-        Eigen::VectorXd s = baseline.whitener.whiten(predict(*problem.model, problem.fitted, phi, with) - f0);
-        s -= j * baseline.mode.precision.ldlt().solve(j.transpose() * s);
+        const Eigen::VectorXd s = m * baseline.whitener.whiten(predict(*problem.model, problem.fitted, phi, with) - f0);
         const double cosine = s.dot(baseline.mode.residual) / std::max(1e-12, s.norm() * baseline.mode.residual.norm());
         list.emplace_back(-cosine, fmt::format("{} (cosine {:.2f})", effect_of(problem, static_cast<int>(e)).name, cosine));
     }
@@ -150,11 +151,11 @@ std::string statement_of(const Diagnosis& d, const Judgement& j) {
 }
 
 /// Halving and doubling the prior mass of each class must not change which effects are claimed.
-bool depends_on_prior(Attribution a, std::vector<Hypothesis> hypotheses, double temperature, Eigen::Index effects, double claim) {
+bool depends_on_prior(Attribution a, std::vector<Hypothesis> hypotheses, const Thresholds& t, Eigen::Index effects) {
     const auto claims = [&](const Attribution& one) {
         std::vector<bool> c;
-        for (const double p : one.inclusion) c.push_back(p >= claim);
-        c.push_back(one.probability_of_open >= 0.5);
+        for (const double p : one.inclusion) c.push_back(p >= t.claim);
+        c.push_back(one.probability_of_open >= t.open);
         return c;
     };
     const auto reference = claims(a);
@@ -164,7 +165,7 @@ bool depends_on_prior(Attribution a, std::vector<Hypothesis> hypotheses, double 
             auto changed = hypotheses;
             for (Hypothesis& h : changed)
                 if (h.open ? size == 3 : h.effects.size() == size) h.log_prior += std::log(factor);
-            normalise(a, changed, temperature, effects);
+            normalise(a, changed, t.temperature, effects);
             if (claims(a) != reference) return true;
         }
     return false;
@@ -176,6 +177,8 @@ void describe_emulator(Diagnosis& d, const inference::EmulatorReport& r) {
                               r.pair_runs, r.modes, 100.0 * r.kept_variance),
                   fmt::format("left-out points: standardised error {:.2f} (1 is right), {:.1f} % beyond three, {:.0f} % of outputs within half a tolerance",
                               r.standardised_rms, 100.0 * r.share_beyond_three, 100.0 * r.share_small),
+                  fmt::format("as stated afterwards: {:.2f} at points on the edge of the runs' range, {:.2f} inside it ({:.2f} is right for such tails)",
+                              r.edge_rms, r.inner_rms, std::sqrt(r.nu / (r.nu - 2.0))),
                   fmt::format("scatter of single runs between {:.2f} and {:.2f} of its middle, Student t with {:.0f} degrees of freedom", r.smallest_scatter,
                               r.largest_scatter, r.nu)};
 }
@@ -190,14 +193,29 @@ Assessment assess(const Attributor& attributor, const Thresholds& t, bool leave_
     result.attribution = attribute(attributor, y, t.temperature, s.bootstrap, s.seed);
     const Attribution& a = result.attribution;
     result.where = locate(attributor, y, a.fits[0], s.bootstrap, s.seed, leave_groups_out);
+    const auto explained = explained_gaps(attributor, y, a, s.false_discovery_rate, s.seed);
+    for (std::size_t g = 0; g < explained.size(); ++g) {
+        DiagnosisWhere& w = result.where[g];
+        w.explained = explained[g].gap;
+        w.explained_lower = explained[g].lower;
+        w.explained_upper = explained[g].upper;
+        w.explained_probability = explained[g].probability;
+        w.explained_discovery = explained[g].discovery;
+    }
     result.transfer_p = transfer_p_value(attributor, y, s.bootstrap, s.seed);
-    Evidence evidence{&a, &result.where, result.transfer_p, best_detectability(attributor, a.fits[0]), false};
+    Evidence evidence{&a, result.transfer_p, best_detectability(attributor, a.fits[0]), false};
     int best_pair = -1;
-    for (std::size_t h = 0; h < attributor.hypotheses().size(); ++h)
+    double best_single = -std::numeric_limits<double>::infinity();
+    for (std::size_t h = 0; h < attributor.hypotheses().size(); ++h) {
+        if (attributor.hypotheses()[h].effects.size() == 1) best_single = std::max(best_single, a.log_evidence[h]);
         if (attributor.hypotheses()[h].effects.size() == 2 && (best_pair < 0 || a.probability[h] > a.probability[static_cast<std::size_t>(best_pair)]))
             best_pair = static_cast<int>(h);
-    if (best_pair >= 0 && a.probability[static_cast<std::size_t>(best_pair)] > 0.5)
-        evidence.second_effect_confirmed = runs_confirm_pair(attributor, a, y, best_pair);
+    }
+    if (best_pair >= 0) {
+        result.pair_gain = a.log_evidence[static_cast<std::size_t>(best_pair)] - best_single;
+        if (a.probability[static_cast<std::size_t>(best_pair)] > 0.5) result.pair_confirmed = runs_confirm_pair(attributor, a, y, best_pair);
+    }
+    evidence.second_effect_confirmed = result.pair_confirmed;
     result.judgement = judge(attributor.hypotheses(), evidence, t);
     return result;
 }
@@ -218,6 +236,8 @@ Diagnosis diagnose(const Problem& problem, const DiagnoseOptions& options) {
     d.temperature = t.temperature;
     d.claim_threshold = t.claim;
     d.adequacy_threshold = t.adequacy;
+    d.gap_threshold = t.gap;
+    d.open_threshold = t.open;
     throw_if_interrupted();
     const Assessment assessment = assess(attributor, t);
     const Attribution& a = assessment.attribution;
@@ -239,7 +259,7 @@ Diagnosis diagnose(const Problem& problem, const DiagnoseOptions& options) {
     d.misfit_family = a.adequacy.family;
     d.best_name = attributor.hypotheses()[static_cast<std::size_t>(a.best_closed)].name;
     d.nearest = nearest_signatures(attributor, a.fits[0]);
-    d.prior_dependent = depends_on_prior(a, attributor.hypotheses(), t.temperature, problem.model->effects(), t.claim);
+    d.prior_dependent = depends_on_prior(a, attributor.hypotheses(), t, problem.model->effects());
     d.how_far = quantify(attributor, a, leading, s.seed);
     d.confirmation = "by re-simulation: not possible, the campaign was made elsewhere and no solver is attached. ";
     for (const bool held_out : {false, true}) {

@@ -24,6 +24,8 @@ struct Assessment {
     Attribution attribution;
     std::vector<DiagnosisWhere> where;
     double transfer_p = not_known;
+    double pair_gain = not_known;  ///< ln evidence of the most probable pair above the best single effect
+    bool pair_confirmed = false;   ///< by runs of the campaign
     Judgement judgement;
 };
 Assessment assess(const Attributor& attributor, const Thresholds& thresholds, bool leave_groups_out = true);

@@ -9,19 +9,55 @@ namespace pelletlab::diagnosis {
 
 namespace {
 
-/// Maps a group's residuals to their informative, decorrelated part: rows are directions.
+/// Unit patterns of a group's residuals after decorrelation: z = filters · r_g are standardised.
 struct GroupTest {
-    Eigen::MatrixXd directions;
-    double statistic(const Eigen::VectorXd& r, const std::vector<int>& points) const { return (directions * r(points)).squaredNorm(); }
+    Eigen::MatrixXd filters;      ///< patterns × points
+    std::vector<bool> one_sided;  ///< only a positive z speaks for the pattern
+    /// Largest z² of each column of residuals.
+    Eigen::RowVectorXd statistic(const Eigen::MatrixXd& r) const {
+        Eigen::MatrixXd z = filters * r;
+        for (Eigen::Index i = 0; i < z.rows(); ++i)
+            if (one_sided[static_cast<std::size_t>(i)]) z.row(i) = z.row(i).cwiseMax(0.0);
+        return z.cwiseAbs2().colwise().maxCoeff();
+    }
 };
 
-GroupTest make_test(const Eigen::MatrixXd& v, const std::vector<int>& points) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(v(points, points)));
+GroupTest make_test(const Eigen::MatrixXd& v, const Eigen::MatrixXd& patterns, const std::vector<bool>& one_sided) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(v);
     std::vector<Eigen::Index> kept;
     for (Eigen::Index i = 0; i < eigen.eigenvalues().size(); ++i)
         if (eigen.eigenvalues()[i] > 0.15) kept.push_back(i);
     const Eigen::VectorXd scale = eigen.eigenvalues()(kept).array().rsqrt();
-    return {scale.asDiagonal() * eigen.eigenvectors()(Eigen::all, kept).transpose()};
+    const Eigen::MatrixXd decorrelated = scale.asDiagonal() * eigen.eigenvectors()(Eigen::all, kept).transpose();
+    GroupTest test;
+    std::vector<Eigen::RowVectorXd> rows;
+    for (Eigen::Index i = 0; i < patterns.cols() && !kept.empty(); ++i) {
+        const Eigen::VectorXd s = decorrelated * patterns.col(i);
+        if (s.norm() < 1e-3 * std::max(1e-300, patterns.col(i).norm())) continue;  // calibration absorbs it
+        rows.push_back(s.normalized().transpose() * decorrelated);
+        test.one_sided.push_back(one_sided[static_cast<std::size_t>(i)]);
+    }
+    test.filters.resize(static_cast<Eigen::Index>(rows.size()), v.rows());
+    for (std::size_t i = 0; i < rows.size(); ++i) test.filters.row(static_cast<Eigen::Index>(i)) = rows[i];
+    return test;
+}
+
+/// Directions in which a gap is looked for, whole data, in units of each datum's standard deviation: a shift, and what each effect leaves after recalibration.
+Eigen::MatrixXd patterns_of(const Attributor& attributor, const Fit& baseline, const Eigen::MatrixXd& operator_of_noise, std::vector<bool>& one_sided) {
+    const Problem& problem = attributor.problem();
+    Eigen::VectorXd phi, theta;
+    attributor.split(attributor.hypotheses()[0], baseline.mode.psi, phi, theta);
+    const Eigen::VectorXd f0 = predict(*problem.model, problem.fitted, phi, theta);
+    Eigen::MatrixXd patterns = Eigen::MatrixXd::Ones(f0.size(), 1 + theta.size());
+    one_sided.assign(1, false);
+    for (Eigen::Index e = 0; e < theta.size(); ++e) {
+        Eigen::VectorXd with = theta;
+        with[e] = 0.7;
+        patterns.col(1 + e) = operator_of_noise * baseline.whitener.whiten(predict(*problem.model, problem.fitted, phi, with) - f0);
+        const auto& effect = problem.model->campaign.description.effects[static_cast<std::size_t>(problem.model->library[static_cast<std::size_t>(e)])];
+        one_sided.push_back(!effect.two_sided);
+    }
+    return patterns;
 }
 
 std::vector<int> others(Eigen::Index n, const std::vector<int>& points) {
@@ -75,9 +111,7 @@ double left_out_z(const Attributor& attributor, const Eigen::VectorXd& y, const 
 std::vector<DiagnosisWhere> locate(const Attributor& attributor, const Eigen::VectorXd& y, const Fit& baseline, int draws, std::uint64_t seed, bool leave_out) {
     const Problem& problem = attributor.problem();
     const DataSet& data = problem.fitted;
-    const Eigen::Index n = y.size();
-    const Eigen::MatrixXd& j = baseline.mode.jacobian;
-    const Eigen::MatrixXd m = Eigen::MatrixXd::Identity(n, n) - j * baseline.mode.precision.ldlt().solve(j.transpose());
+    const Eigen::MatrixXd m = inference::residual_operator(baseline.mode);
     // Residuals in physical units decorrelate badly over groups when whitened by a triangular factor: each group keeps its own rows of C·r.
     const Eigen::MatrixXd& c = baseline.whitener.factor();
     const Eigen::VectorXd sd = c.rowwise().norm();
@@ -88,14 +122,9 @@ std::vector<DiagnosisWhere> locate(const Attributor& attributor, const Eigen::Ve
     const Eigen::MatrixXd physical_covariance = sd.asDiagonal() * v * sd.asDiagonal();
     const Eigen::VectorXd miss = y - attributor.mean(attributor.hypotheses()[0], baseline.mode.psi);
 
-    std::vector<GroupTest> tests;
-    std::vector<std::vector<double>> reference(data.groups.size());
-    for (const Group& g : data.groups) tests.push_back(make_test(v, g.points));
-    RandomStream random(seed, 0x6c6f6361);
-    for (int d = 0; d < draws; ++d) {
-        const Eigen::VectorXd noise = operator_of_noise * inference::draw_student(random, n, problem.model->emulator.nu());
-        for (std::size_t g = 0; g < tests.size(); ++g) reference[g].push_back(tests[g].statistic(noise, data.groups[g].points));
-    }
+    std::vector<bool> one_sided;
+    const Eigen::MatrixXd patterns = patterns_of(attributor, baseline, operator_of_noise, one_sided);
+    const Eigen::MatrixXd noise = operator_of_noise * noise_draws(problem, draws, seed, 0x6c6f6361);
     std::vector<DiagnosisWhere> where;
     std::vector<double> p;
     for (std::size_t g = 0; g < data.groups.size(); ++g) {
@@ -107,9 +136,13 @@ std::vector<DiagnosisWhere> locate(const Attributor& attributor, const Eigen::Ve
         w.regime = group.regime;
         w.unit =
             problem.model->campaign.description.observables[static_cast<std::size_t>(data.points[static_cast<std::size_t>(group.points[0])].observable)].unit;
-        w.statistic = tests[g].statistic(r, group.points);
-        w.degrees = static_cast<double>(tests[g].directions.rows());
-        w.p = w.degrees > 0.0 ? inference::reference_p_value(w.statistic, reference[g]) : 1.0;
+        const GroupTest test = make_test(v(group.points, group.points), patterns(group.points, Eigen::all), one_sided);
+        w.degrees = static_cast<double>(test.filters.rows());
+        if (w.degrees > 0.0) {
+            w.statistic = test.statistic(r(group.points))[0];
+            const Eigen::RowVectorXd reference = test.statistic(noise(group.points, Eigen::all));
+            w.p = inference::reference_p_value(w.statistic, {reference.data(), reference.data() + reference.size()});
+        }
         const auto count = static_cast<double>(group.points.size());
         w.gap = miss(group.points).sum() / count;
         const double half = 1.6449 * std::sqrt(Eigen::MatrixXd(physical_covariance(group.points, group.points)).sum()) / count;
@@ -134,7 +167,7 @@ double transfer_p_value(const Attributor& attributor, const Eigen::VectorXd& y, 
     // Miss of the rest: its own noise, minus what the calibrated data's noise drags along through the fit.
     const inference::Whitener calibrated_whitener(Eigen::MatrixXd(sigma(calibrated, calibrated)));
     const Eigen::MatrixXd jc = calibrated_whitener.whiten_columns(jacobian(calibrated, Eigen::all));
-    const Eigen::MatrixXd gain = jacobian(rest, Eigen::all) * fit.mode.precision.ldlt().solve(jc.transpose());
+    const Eigen::MatrixXd gain = fit.mode.weight * jacobian(rest, Eigen::all) * fit.mode.precision.ldlt().solve(jc.transpose());
     const inference::Whitener whole(sigma);
     Eigen::MatrixXd to_miss = whole.factor()(rest, Eigen::all);
     to_miss -= gain * calibrated_whitener.whiten_columns(Eigen::MatrixXd(whole.factor()(calibrated, Eigen::all)));

@@ -6,9 +6,10 @@
 
 namespace pelletlab::diagnosis {
 
-/// Groups of the fitted data: mean gap with 90 % interval; D_g² = r_gᵀ V_gg⁺ r_g on directions of V = (1 − H)(1 − H)ᵀ with eigenvalue above 0.15; p value from
-/// `draws` parametric bootstrap samples with the fit linearised; Benjamini–Hochberg at the experiment's rate; and the standardised miss when the group is left
-/// out.
+/// Groups of the fitted data, each judged by its own data: mean gap with 90 % interval; largest standardised shift z² along a few directions named beforehand
+/// (a common shift; the signature of each effect after recalibration, with its sign where the effect has one), matched filters z = s_gᵀV_gg⁺r_g/√(s_gᵀV_gg⁺s_g)
+/// on directions of V = M Mᵀ (M: residual_operator) with eigenvalue above 0.15; p value from `draws` parametric bootstrap samples with the fit linearised;
+/// Benjamini–Hochberg at the experiment's rate; and the standardised miss when the group is left out.
 std::vector<DiagnosisWhere> locate(const Attributor& attributor, const Eigen::VectorXd& y, const Fit& baseline, int draws, std::uint64_t seed,
                                    bool leave_out = true);
 

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/units.hpp"
 #include "inference/statistics.hpp"
@@ -50,7 +51,8 @@ void add_leverages(const Attributor& attributor, const Eigen::VectorXd& phi, Dia
     std::vector<int> rows(static_cast<std::size_t>(y.size()));
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<int>(i);
     const inference::Whitener whitener(covariance(problem, problem.fitted, phi, none));
-    const auto inference = attributor.inference_of(attributor.hypotheses()[0], y, whitener, rows);
+    auto inference = attributor.inference_of(attributor.hypotheses()[0], y, whitener, rows);
+    inference.nu = std::numeric_limits<double>::infinity();  // exact data would count as far too good for a Student t, and sharpen everything
     const inference::Mode mode = inference::find_mode(inference, {phi}, 1);
     const Eigen::MatrixXd posterior = mode.precision.ldlt().solve(Eigen::MatrixXd::Identity(phi.size(), phi.size()));
     const Eigen::MatrixXd hat = mode.jacobian * posterior * mode.jacobian.transpose();

@@ -11,8 +11,8 @@ namespace pelletlab::diagnosis {
 /// and measurement noise.
 std::vector<DiagnosisShrink> quantify(const Attributor& attributor, const Attribution& attribution, int leading, std::uint64_t seed);
 
-/// Campaign runs with both effects against runs with one of them, each at its best, on the fitted data whitened at the pair's mode: the pair must be better by
-/// 9 + 2 ln(number of pair runs / number of single runs). False when the campaign has no run with both.
+/// Campaign runs with both effects against runs with one of them, each at its best (on a segment between two of the dozen nearest runs), on the fitted data
+/// whitened at the pair's mode: the pair must be better by 9 + 2 ln(number of pair runs / number of single runs). False when the campaign has no run with both.
 bool runs_confirm_pair(const Attributor& attributor, const Attribution& attribution, const Eigen::VectorXd& y, int pair_hypothesis);
 
 /// Shrink on a data set (fitted or held out) by single runs of the campaign: the run closest to the fitted data in the block of `leading` against the closest

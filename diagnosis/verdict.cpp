@@ -33,18 +33,18 @@ std::vector<int> effects_of_set(const std::vector<Hypothesis>& hypotheses, const
 Judgement judge(const std::vector<Hypothesis>& hypotheses, const Evidence& evidence, const Thresholds& t) {
     const Attribution& a = *evidence.attribution;
     const bool baseline_adequate = a.baseline_adequacy.p >= t.adequacy;
-    const bool discovery = std::any_of(evidence.where->begin(), evidence.where->end(), [](const DiagnosisWhere& w) { return w.discovery; });
     std::vector<int> claimed;
     for (const int e : by_inclusion(a))
         if (a.inclusion[static_cast<std::size_t>(e)] >= t.claim) claimed.push_back(e);
 
-    if (a.probability_of_open >= 0.5) return {Verdict::outside_library, {}, "the open class is the most probable explanation"};
+    // An explanation of the library that describes the data without any doubt is not ruled out by a shape that nobody can name.
+    if (a.probability_of_open >= t.open && a.adequacy.p < 0.2) return {Verdict::outside_library, {}, "the open class is the most probable explanation"};
     if (a.adequacy.p < t.adequacy) return {Verdict::outside_library, {}, "the best explanation of the library does not describe the data"};
-    if (baseline_adequate && claimed.empty() && a.best_closed == 0) {
+    if (baseline_adequate && claimed.empty() && 1.0 - a.probability_of_none < t.gap) {
         if (evidence.best_detectability < 9.0) return {Verdict::underpowered, {}, "no effect of the library could have been seen with these data"};
         if (!std::isnan(evidence.transfer_p) && evidence.transfer_p < 0.05)
             return {Verdict::ambiguous_calibration, {}, "the data calibrated on leave the parameters open: another set fits everything"};
-        if (a.probability_of_none + a.probability_of_open >= 0.5 || !discovery) return {Verdict::no_gap, {}, "the calibrated baseline describes the data"};
+        return {Verdict::no_gap, {}, "the calibrated baseline describes the data"};
     }
     if (claimed.size() >= 2) {
         std::vector<int> pair{claimed[0], claimed[1]};

@@ -15,15 +15,14 @@ struct Judgement {
 
 struct Evidence {
     const Attribution* attribution = nullptr;
-    const std::vector<DiagnosisWhere>* where = nullptr;
     double transfer_p = not_known;
     double best_detectability = 0.0;       ///< largest λ_k0 at θ = 1 near the baseline's fit
     bool second_effect_confirmed = false;  ///< by runs, not by the emulator
 };
 
-/// OUTSIDE-LIBRARY: P(none of these) ≥ 0.5, or the best explanation is refused by the adequacy test.
-/// NO-GAP / AMBIGUOUS-CALIBRATION / UNDERPOWERED: «parameters only» is adequate, no effect reaches the claim threshold and «parameters only» is the most
-/// probable;
+/// OUTSIDE-LIBRARY: P(none of these) reaches its threshold and the best explanation is doubtful (adequacy p < 0.2), or the adequacy test refuses it.
+/// NO-GAP / AMBIGUOUS-CALIBRATION / UNDERPOWERED: «parameters only» is adequate, no effect reaches the claim threshold, and 1 − P(parameters only) stays below
+/// its threshold, as it does in 95 % of cases without effect;
 ///   ambiguous when data that were calibrated on fit and the rest missed; underpowered when no effect could have reached λ = 9.
 /// EFFECT: one effect at or above the claim threshold. EFFECTS: two, the pair better than the best single effect by 3 nats, and confirmed. SET: everything
 /// else.

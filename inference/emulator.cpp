@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -21,6 +22,22 @@ Eigen::MatrixXd covariance_of_rest(const PodBasis& basis, const Eigen::MatrixXd&
     covariance *= 0.5;
     covariance.diagonal() = diagonal;
     return covariance;
+}
+
+/// What the standardised left-out errors of each mode show over parameters and effects: a mode that the kernel takes for smooth can be far off where the
+/// response bends most, at an edge say, while the others are right. Runs at one point share the baseline's error and each effect's, so they count as that many.
+std::vector<ScatterModel> fit_own(const SpokeInputs& inputs, const Eigen::MatrixXd& z, const std::vector<int>& point) {
+    const auto points = static_cast<double>(std::set<int>(point.begin(), point.end()).size());
+    ScatterOptions options;
+    options.normal = true;
+    options.weight = std::min(1.0, points * static_cast<double>(1 + inputs.theta.cols()) / static_cast<double>(z.rows()));
+    std::vector<ScatterModel> own(static_cast<std::size_t>(z.cols()));
+    parallel_for(own.size(), 1, [&](std::size_t m) {
+        std::vector<double> square;
+        for (Eigen::Index i = 0; i < z.rows(); ++i) square.push_back(z(i, static_cast<Eigen::Index>(m)) * z(i, static_cast<Eigen::Index>(m)));
+        own[m] = fit_scatter(inputs, square, 1, options);
+    });
+    return own;
 }
 
 }  // namespace
@@ -51,8 +68,7 @@ Emulator::Emulator(const TrainingRuns& runs, const Eigen::VectorXd& weight, cons
     const auto n = static_cast<Eigen::Index>(used.size());
     Eigen::MatrixXd scores(runs.output.rows(), modes);
     for (Eigen::Index i = 0; i < runs.output.rows(); ++i) scores.row(i) = basis_.scores(runs.output.row(i).transpose()).transpose();
-    std::vector<int> group;
-    for (const int i : used) group.push_back(runs.point[static_cast<std::size_t>(i)]);
+    for (const int i : used) point_.push_back(runs.point[static_cast<std::size_t>(i)]);
     SpokeInputs inputs = runs.inputs;
     inputs.scatter = Eigen::VectorXd::Ones(inputs.phi.rows());
     Eigen::MatrixXd z(n, modes), error(n, modes);
@@ -64,18 +80,24 @@ Emulator::Emulator(const TrainingRuns& runs, const Eigen::VectorXd& weight, cons
         parallel_for(processes_.size(), 1,
                      [&](std::size_t m) { processes_[m] = GaussianProcess(inputs, scores.col(static_cast<Eigen::Index>(m)), spokes, pairs); });
         for (Eigen::Index m = 0; m < modes; ++m) {
-            const auto left = processes_[static_cast<std::size_t>(m)].leave_groups_out(group);
+            const auto left = processes_[static_cast<std::size_t>(m)].leave_groups_out(point_);
             error.col(m) = left.error;
             z.col(m) = left.error.cwiseQuotient(left.deviation);
         }
         report_.standardised_rms = std::sqrt(z.squaredNorm() / static_cast<double>(n * modes));
         for (Eigen::Index m = 0; m < modes; ++m) error_scale_[m] = std::max(0.3, std::sqrt(z.col(m).squaredNorm() / static_cast<double>(n)));
         z = z * error_scale_.cwiseInverse().asDiagonal();
+        const SpokeInputs used_inputs = inputs.rows(used);
+        if (pass == 1) {
+            own_ = fit_own(used_inputs, z, point_);
+            for (Eigen::Index m = 0; m < modes; ++m)
+                for (Eigen::Index i = 0; i < n; ++i)
+                    z(i, m) /= std::sqrt(own_[static_cast<std::size_t>(m)].factor(used_inputs.phi.row(i).transpose(), used_inputs.theta.row(i).transpose()));
+        }
         correlation_ = shrunk_correlation(z);
         const Whitener whitener(correlation_);
         distance.clear();
         for (Eigen::Index i = 0; i < n; ++i) distance.push_back(whitener.whiten(z.row(i).transpose()).squaredNorm());
-        const SpokeInputs used_inputs = inputs.rows(used);
         if (pass == 0) {
             scatter_ = fit_scatter(used_inputs, distance, modes);
             for (Eigen::Index i = 0; i < inputs.phi.rows(); ++i)
@@ -103,7 +125,32 @@ Emulator::Emulator(const TrainingRuns& runs, const Eigen::VectorXd& weight, cons
     report_.kept_variance = basis_.kept;
     report_.share_beyond_three = static_cast<double>((z.array().abs() > 3.0).count()) / static_cast<double>(z.size());
     report_.share_small = static_cast<double>(small) / static_cast<double>(n * weight.size());
+    const SpokeInputs used_inputs = inputs.rows(used);
+    const Eigen::RowVectorXd low = used_inputs.phi.colwise().minCoeff(), high = used_inputs.phi.colwise().maxCoeff();
+    double edge = 0.0, inner = 0.0, edges = 0.0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const auto phi = used_inputs.phi.row(i).array();
+        const bool at_edge = (phi <= low.array() + 1e-9).any() || (phi >= high.array() - 1e-9).any();
+        (at_edge ? edge : inner) += z.row(i).squaredNorm() / static_cast<double>(modes);
+        edges += at_edge ? 1.0 : 0.0;
+    }
+    report_.edge_rms = std::sqrt(edge / std::max(1.0, edges));
+    report_.inner_rms = std::sqrt(inner / std::max(1.0, static_cast<double>(n) - edges));
     report_.accepted = report_.standardised_rms > 0.5 && report_.standardised_rms < 2.0 && report_.share_beyond_three < 0.02;
+}
+
+Emulator Emulator::without_point(int point) const {
+    Emulator rest = *this;
+    std::vector<int> out;
+    rest.point_.clear();
+    for (std::size_t i = 0; i < point_.size(); ++i)
+        if (point_[i] == point)
+            out.push_back(static_cast<int>(i));
+        else
+            rest.point_.push_back(point_[i]);
+    if (!out.empty())
+        for (GaussianProcess& process : rest.processes_) process = process.without(out);
+    return rest;
 }
 
 Eigen::VectorXd Emulator::scores(const Eigen::VectorXd& phi, const Eigen::VectorXd& theta) const {
@@ -117,7 +164,7 @@ Eigen::MatrixXd Emulator::score_covariance(const Eigen::VectorXd& phi, const Eig
     const double noise = one_run ? scatter_.relative(phi, theta) : 0.0, rest = std::sqrt(left_over_.factor(phi, theta));
     for (std::size_t m = 0; m < processes_.size(); ++m) {
         const double variance = processes_[m].variance(phi, theta) + noise * processes_[m].noise_variance();
-        deviation[static_cast<Eigen::Index>(m)] = rest * error_scale_[static_cast<Eigen::Index>(m)] * std::sqrt(variance);
+        deviation[static_cast<Eigen::Index>(m)] = rest * error_scale_[static_cast<Eigen::Index>(m)] * std::sqrt(variance * own_[m].factor(phi, theta));
     }
     return deviation.asDiagonal() * correlation_ * deviation.asDiagonal();
 }

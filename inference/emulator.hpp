@@ -30,6 +30,8 @@ struct EmulatorReport {
     double standardised_rms = 0.0;    ///< before the error model is rescaled: 1 is right
     double share_beyond_three = 0.0;  ///< of standardised errors after rescaling, < 0.02
     double share_small = 0.0;         ///< outputs whose left-out error (scatter of the left-out run included) is below half of the scale that matters
+    double edge_rms = 0.0;            ///< of errors at left-out points on the edge of the runs' range (a smallest or largest parameter), standardised as stated
+    double inner_rms = 0.0;           ///< of errors at the others: √(ν/(ν − 2)) is right for both
     double nu = 0.0;                  ///< degrees of freedom of the error's Student t
     double smallest_scatter = 1.0, largest_scatter = 1.0;  ///< standard deviation of single runs relative to the campaign's middle
     bool accepted = false;
@@ -49,6 +51,8 @@ public:
     Eigen::MatrixXd score_covariance(const Eigen::VectorXd& phi, const Eigen::VectorXd& theta, bool one_run) const;
     /// Covariance of what the basis cannot make (outputs × outputs), scaled with the scatter of single runs at the point.
     Eigen::MatrixXd rest_covariance(const Eigen::VectorXd& phi, const Eigen::VectorXd& theta) const { return scatter_.relative(phi, theta) * rest_; }
+    /// The same emulator (kernel and error model kept) that never saw the runs at this point: what it says there is a prediction.
+    Emulator without_point(int point) const;
     double nu() const { return report_.nu; }
     const EmulatorReport& report() const { return report_; }
 
@@ -56,7 +60,9 @@ private:
     PodBasis basis_;
     std::vector<GaussianProcess> processes_;
     Eigen::VectorXd error_scale_;
-    ScatterModel scatter_, left_over_;  ///< of the runs' noise; of what the standardised left-out errors still show
+    std::vector<ScatterModel> own_;     ///< of each mode's standardised left-out errors
+    ScatterModel scatter_, left_over_;  ///< of the runs' noise; of what the standardised left-out errors of all modes together still show
+    std::vector<int> point_;            ///< of each run that was used
     Eigen::MatrixXd correlation_, rest_;
     EmulatorReport report_;
 };

@@ -31,6 +31,19 @@ double log_student_density(double chi2, Eigen::Index n, double log_determinant, 
            0.5 * (nu + dimensions) * std::log1p(chi2 / nu);
 }
 
+double log_heavy_tailed_likelihood(double chi2, Eigen::Index n, double log_determinant, double nu) {
+    const auto dimensions = static_cast<double>(n);
+    const double inside = std::isfinite(nu) ? std::min(chi2, dimensions) : chi2;
+    double value = -0.5 * (inside + log_determinant + dimensions * std::log(2.0 * std::numbers::pi));
+    if (chi2 > inside) value -= 0.5 * (nu + dimensions) * std::log((nu + chi2) / (nu + dimensions));
+    return value;
+}
+
+double heavy_tailed_weight(double chi2, Eigen::Index n, double nu) {
+    const auto dimensions = static_cast<double>(n);
+    return std::isfinite(nu) && chi2 > dimensions ? (nu + dimensions) / (nu + chi2) : 1.0;
+}
+
 Eigen::VectorXd draw_student(RandomStream& random, Eigen::Index n, double nu) {
     Eigen::VectorXd x(n);
     for (Eigen::Index i = 0; i < n; ++i) x[i] = random.normal();

@@ -75,12 +75,29 @@ GaussianProcess::GaussianProcess(const SpokeInputs& x, const Eigen::VectorXd& y,
     logs_ = minimise(f, layout_.prior_mean(), 0.02, 60).x;
     if (!pairs.empty()) logs_ = fit_interaction(layout_, x_, y_, logs_);
 
+    condition();
+}
+
+void GaussianProcess::condition() {
     const Eigen::LLT<Eigen::MatrixXd> llt(spoke_covariance(layout_, logs_, x_));
     if (llt.info() != Eigen::Success)
         throw numerical_failure("the emulator's covariance is singular", "check the campaign for equal runs with different results");
     factor_ = llt.matrixL();
     alpha_ = llt.solve(y_);
     kernel_ = SpokeEvaluator(layout_, logs_, x_);
+}
+
+GaussianProcess GaussianProcess::without(const std::vector<int>& runs) const {
+    std::vector<bool> out(static_cast<std::size_t>(x_.runs()), false);
+    for (const int i : runs) out[static_cast<std::size_t>(i)] = true;
+    std::vector<int> kept;
+    for (std::size_t i = 0; i < out.size(); ++i)
+        if (!out[i]) kept.push_back(static_cast<int>(i));
+    GaussianProcess rest = *this;
+    rest.x_ = x_.rows(kept);
+    rest.y_ = y_(kept);
+    rest.condition();
+    return rest;
 }
 
 double GaussianProcess::mean(const Eigen::VectorXd& phi, const Eigen::VectorXd& theta) const {

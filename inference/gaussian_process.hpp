@@ -24,9 +24,12 @@ public:
         Eigen::VectorXd error, deviation;
     };
     LeftOut leave_groups_out(const std::vector<int>& group) const;
+    /// The process with the same numbers of the kernel that never saw these runs (numbers in its own order: spokes, then pairs).
+    GaussianProcess without(const std::vector<int>& runs) const;
     const Eigen::VectorXd& logs() const { return logs_; }
 
 private:
+    void condition();  ///< on x_ and y_ with the numbers in logs_
     SpokeLayout layout_;
     SpokeInputs x_;
     SpokeEvaluator kernel_;

@@ -12,12 +12,11 @@ namespace pelletlab::inference {
 namespace {
 
 double weight_of(const Inference& p, double chi2) {
-    if (!std::isfinite(p.nu)) return 1.0;
-    return (p.nu + static_cast<double>(p.whitened_data.size())) / (p.nu + chi2);
+    return heavy_tailed_weight(chi2, p.whitened_data.size(), p.nu);
 }
 
 double log_likelihood(const Inference& p, double chi2) {
-    return log_student_density(chi2, p.whitened_data.size(), p.log_determinant, p.nu);
+    return log_heavy_tailed_likelihood(chi2, p.whitened_data.size(), p.log_determinant, p.nu);
 }
 
 Eigen::VectorXd clamped(const Inference& p, const Eigen::VectorXd& psi) {
@@ -44,6 +43,15 @@ double log_unnormalised(const Inference& p, const Eigen::VectorXd& psi, double c
     return log_likelihood(p, chi2) - 0.5 * psi.cwiseAbs2().dot(prior_precision(p));
 }
 
+/// Gradient of the log posterior at a mode whose residual and χ² are known.
+Eigen::VectorXd slope(const Inference& p, const Eigen::MatrixXd& jacobian, const Mode& m) {
+    return weight_of(p, m.chi2) * jacobian.transpose() * m.residual - prior_precision(p).cwiseProduct(m.psi);
+}
+
+bool stuck(const Inference& p, const Eigen::VectorXd& psi, const Eigen::VectorXd& g, Eigen::Index i) {
+    return (psi[i] <= p.lower[i] && g[i] < 0.0) || (psi[i] >= p.upper[i] && g[i] > 0.0);
+}
+
 Mode climb(const Inference& p, const Eigen::VectorXd& start, int largest_steps) {
     Mode m;
     m.psi = clamped(p, start);
@@ -54,13 +62,11 @@ Mode climb(const Inference& p, const Eigen::VectorXd& start, int largest_steps) 
     double damping = 1e-3;
     for (int step = 0; step < largest_steps; ++step) {
         const Eigen::MatrixXd j = jacobian_at(p, m.psi, f);
-        const double w = weight_of(p, m.chi2);
-        Eigen::MatrixXd a = w * j.transpose() * j;
+        Eigen::MatrixXd a = weight_of(p, m.chi2) * j.transpose() * j;
         a.diagonal() += prior_precision(p);
-        Eigen::VectorXd g = w * j.transpose() * m.residual - prior_precision(p).cwiseProduct(m.psi);
+        Eigen::VectorXd g = slope(p, j, m);
         for (Eigen::Index i = 0; i < g.size(); ++i) {  // unknowns that push against the box stay there
-            const bool stuck = (m.psi[i] <= p.lower[i] && g[i] < 0.0) || (m.psi[i] >= p.upper[i] && g[i] > 0.0);
-            if (!stuck) continue;
+            if (!stuck(p, m.psi, g, i)) continue;
             a.row(i).setZero();
             a.col(i).setZero();
             a(i, i) = 1.0;
@@ -116,10 +122,25 @@ Mode find_mode(const Inference& p, const std::vector<Eigen::VectorXd>& starts, i
         first = false;
     }
     best.jacobian = jacobian_at(p, best.psi, p.whitened_data - best.residual);
-    best.precision = weight_of(p, best.chi2) * best.jacobian.transpose() * best.jacobian;
+    best.weight = weight_of(p, best.chi2);
+    best.precision = best.weight * best.jacobian.transpose() * best.jacobian;
     // A direction that the data leave free is bounded by the box: a normal as wide as half of it.
     best.precision.diagonal() += prior_precision(p) + (0.5 * (p.upper - p.lower)).array().inverse().square().matrix();
+    const Eigen::VectorXd g = slope(p, best.jacobian, best);
+    best.free.clear();
+    for (Eigen::Index i = 0; i < g.size(); ++i)
+        if (!stuck(p, best.psi, g, i)) best.free.push_back(static_cast<int>(i));
     return best;
+}
+
+Eigen::MatrixXd residual_operator(const Mode& mode) {
+    const Eigen::Index n = mode.residual.size();
+    Eigen::MatrixXd m = Eigen::MatrixXd::Identity(n, n);
+    if (mode.free.empty()) return m;
+    const Eigen::MatrixXd j = mode.jacobian(Eigen::all, mode.free);
+    const Eigen::MatrixXd precision = mode.precision(mode.free, mode.free);
+    m -= mode.weight * j * precision.ldlt().solve(j.transpose());
+    return m;
 }
 
 double laplace_evidence(const Inference& p, const Mode& mode) {

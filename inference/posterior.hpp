@@ -9,8 +9,8 @@
 
 namespace pelletlab::inference {
 
-/// y = f(ψ) + noise; noise elliptical Student t with scale Σ. The prior is uniform in the box where prior_deviation is infinite, and normal (mean 0) cut to the
-/// box elsewhere.
+/// y = f(ψ) + noise; likelihood Gaussian with Σ up to χ² = n and as slow as a Student t beyond (log_heavy_tailed_likelihood). The prior is uniform in the box
+/// where prior_deviation is infinite, and normal (mean 0) cut to the box elsewhere.
 struct Inference {
     Eigen::VectorXd whitened_data;  ///< C⁻¹ y
     double log_determinant = 0.0;   ///< of Σ
@@ -24,9 +24,16 @@ struct Mode {
     Eigen::VectorXd residual;   ///< whitened, y − f(ψ)
     Eigen::MatrixXd jacobian;   ///< whitened ∂f/∂ψ at the mode
     Eigen::MatrixXd precision;  ///< curvature of −log posterior, with a floor that spans the box
+    std::vector<int> free;      ///< unknowns that are not pressed against their bound: only these follow small changes of the data
     double chi2 = 0.0;
+    double weight = 1.0;         ///< of the data in the precision: below 1 when χ² > n
     double log_posterior = 0.0;  ///< not normalised
 };
+
+/// Residual of a fit linearised at its mode as a function of whitened noise: M = 1 − w J_f P_ff⁻¹ J_fᵀ, f the free unknowns and w the weight that the heavy
+/// tail gives all data alike (it is in P, too: it widens the posterior and leaves what the fit absorbs nearly alone). A bound that holds an unknown keeps it
+/// from absorbing noise, so its direction stays in M.
+Eigen::MatrixXd residual_operator(const Mode& mode);
 
 /// log prior density, normalised over the box; −∞ outside.
 double log_prior(const Inference& problem, const Eigen::VectorXd& psi);

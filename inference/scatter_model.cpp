@@ -26,22 +26,23 @@ double ScatterModel::relative(const Eigen::VectorXd& phi, const Eigen::VectorXd&
     return std::exp(coefficients.dot(features(phi, theta)) - middle);
 }
 
-ScatterModel fit_scatter(const SpokeInputs& runs, const std::vector<double>& distance, Eigen::Index dimensions) {
+ScatterModel fit_scatter(const SpokeInputs& runs, const std::vector<double>& distance, Eigen::Index dimensions, const ScatterOptions& options) {
     const auto q = static_cast<double>(dimensions);
     Eigen::MatrixXd x(runs.runs(), 2 + 2 * runs.phi.cols() + runs.theta.cols());
     for (Eigen::Index i = 0; i < runs.runs(); ++i) x.row(i) = features(runs.phi.row(i).transpose(), runs.theta.row(i).transpose()).transpose();
     ScatterModel best;
     double best_value = 1e300;
     for (const double nu : {4.0, 6.0, 9.0, 14.0, 25.0, 60.0, 200.0}) {
+        if (options.normal && nu < 200.0) continue;
         const auto f = [&](const Eigen::VectorXd& beta, Eigen::VectorXd& gradient) {
-            constexpr double width = 1.5;
-            double value = 0.5 * beta.tail(beta.size() - 1).squaredNorm() / (width * width);
-            gradient = beta / (width * width);
+            const double precision = 1.0 / (options.width * options.width);
+            double value = 0.5 * beta.tail(beta.size() - 1).squaredNorm() * precision;
+            gradient = beta * precision;
             gradient[0] = 0.0;
             for (Eigen::Index i = 0; i < x.rows(); ++i) {
                 const double log_scale = x.row(i).dot(beta), d = distance[static_cast<std::size_t>(i)] * std::exp(-log_scale);
-                value -= log_student_density(d, dimensions, q * log_scale, nu);
-                gradient += (0.5 * q - 0.5 * (nu + q) * d / (nu + d)) * x.row(i).transpose();
+                value -= options.weight * log_student_density(d, dimensions, q * log_scale, nu);
+                gradient += options.weight * (0.5 * q - 0.5 * (nu + q) * d / (nu + d)) * x.row(i).transpose();
             }
             return value;
         };

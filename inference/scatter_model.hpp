@@ -19,7 +19,12 @@ struct ScatterModel {
 };
 
 /// Most likely β and ν (from 4 to 200) when run i has Mahalanobis distance `distance[i]` in `dimensions` dimensions under a unit variance factor:
-/// Student-t likelihood, weak normal prior (width 1.5) on the slopes.
-ScatterModel fit_scatter(const SpokeInputs& runs, const std::vector<double>& distance, Eigen::Index dimensions);
+/// Student-t likelihood, normal prior on the slopes.
+struct ScatterOptions {
+    double width = 1.5;   ///< of the prior on the slopes
+    double weight = 1.0;  ///< of one run's likelihood, below 1 where runs share their errors
+    bool normal = false;  ///< ν = 200 only
+};
+ScatterModel fit_scatter(const SpokeInputs& runs, const std::vector<double>& distance, Eigen::Index dimensions, const ScatterOptions& options = {});
 
 }  // namespace pelletlab::inference

@@ -104,6 +104,18 @@ std::vector<bool> false_discovery_control(const std::vector<double>& p, double q
     return discovery;
 }
 
+std::vector<bool> expected_false_discovery_control(const std::vector<double>& doubt, double q) {
+    const auto order = ascending(doubt);
+    std::vector<bool> discovery(doubt.size(), false);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < doubt.size(); ++i) {
+        sum += doubt[order[i]];
+        if (sum > q * static_cast<double>(i + 1)) break;  // the mean of ascending numbers only grows
+        discovery[order[i]] = true;
+    }
+    return discovery;
+}
+
 std::vector<double> holm(const std::vector<double>& p) {
     const auto order = ascending(p);
     std::vector<double> adjusted(p.size());

@@ -19,6 +19,8 @@ double draw_chi_squared(RandomStream& random, double k);
 
 /// Benjamini & Hochberg 1995: which hypotheses are discoveries at false discovery rate q. With `dependent`, Benjamini & Yekutieli 2001: q / Σ 1/i.
 std::vector<bool> false_discovery_control(const std::vector<double>& p, double q, bool dependent = false);
+/// Newton, Noueiry, Sarkar & Ahlquist 2004: the largest set whose mean posterior probability of being false, `doubt`, is at most q.
+std::vector<bool> expected_false_discovery_control(const std::vector<double>& doubt, double q);
 /// Holm 1979: p values adjusted for the family, each in [p, 1].
 std::vector<double> holm(const std::vector<double>& p);
 

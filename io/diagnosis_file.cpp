@@ -25,7 +25,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisPlan::Effect, name, detectability, s
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisPlan::Leverage, group, largest)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisPlan::Direction, deviation, text)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisPlan, effects, separability, leverages, directions, noise_rms)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisWhere, group, observable, region, regime, unit, gap, lower, upper, statistic, degrees, p, discovery, left_out_z)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisWhere, group, observable, region, regime, unit, gap, lower, upper, statistic, degrees, p, discovery, left_out_z,
+                                   explained, explained_lower, explained_upper, explained_probability, explained_discovery)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisHypothesis::Amplitude, effect, mean, lower, upper, text)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisHypothesis, name, log_evidence, prior, probability, chi2, effective_samples, in_set, amplitudes, parameters)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisCurve, name, observable, regime, unit, axis_name, held_out, axis, value, uncertainty, baseline, explained)
@@ -33,15 +34,16 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisShrink, data, before, after, placebo
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DiagnosisNext, name, cost, information, per_cost)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Diagnosis::Inclusion, effect, probability)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Diagnosis, name, campaign, campaign_source, verdict, statement, named, notes, audit, plan, where, hypotheses, inclusion,
-                                   temperature, claim_threshold, adequacy_threshold, baseline_p, best_p, best_name, misfit_family, nearest, transfer_p,
-                                   prior_dependent, how_far, confirmation, next, curves, emulator, emulator_accepted, provenance)
+                                   temperature, claim_threshold, adequacy_threshold, gap_threshold, open_threshold, baseline_p, best_p, best_name,
+                                   misfit_family, nearest, transfer_p, prior_dependent, how_far, confirmation, next, curves, emulator, emulator_accepted,
+                                   provenance)
 
 namespace io {
 
 namespace {
 
 constexpr const char* format_name = "pelletlab diagnosis";
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 
 /// JSON has no NaN: it is written as null and becomes NaN again.
 void nulls_to_nan(Json& json) {

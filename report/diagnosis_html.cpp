@@ -35,15 +35,19 @@ std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
 std::string where_section(const Diagnosis& d) {
     std::string text =
         "<h2>Where</h2><p class=soft>Measured minus the best joint fit of the baseline, averaged over the group, with a 90 % interval. «GAP»: discovery at the "
-        "false discovery rate "
-        "of the experiment. The last column is the standardised miss when the fit does not see the group: it tells culprits from victims.</p><div class=row>";
+        "false discovery rate of the experiment by the group's own data. «explained»: the gap that the weighed explanations of the next section predict there; "
+        "all "
+        "data speak for them, so they show gaps that a group alone cannot, and they are only as right as the explanation. The last column is the standardised "
+        "miss when the fit does not see the group: it tells culprits from victims.</p><div class=row>";
     for (const DiagnosisCurve& c : d.curves)
         if (c.axis.size() > 1) text += detail::profile_chart(c);
     text += "</div><p class=soft>● measured (bars: ±2 uncertainties), — baseline, calibrated, - - with the leading explanation; red: the gap.</p><table>" +
-            row({"group", "gap", "90 % interval", "p", "", "left out: z"}, "th");
+            row({"group", "gap", "90 % interval", "p", "", "explained", "90 % interval", "", "left out: z"}, "th");
     for (const DiagnosisWhere& w : d.where)
         text += row({escaped(w.group), number(w.gap) + (w.unit == "1" ? "" : " " + escaped(w.unit)), number(w.lower) + " to " + number(w.upper),
-                     number(w.p, "{:.4f}"), w.discovery ? "<span class=gap>GAP</span>" : "", number(w.left_out_z, "{:.1f}")});
+                     number(w.p, "{:.4f}"), w.discovery ? "<span class=gap>GAP</span>" : "", number(w.explained),
+                     number(w.explained_lower) + " to " + number(w.explained_upper), w.explained_discovery ? "<span class=gap>GAP</span>" : "",
+                     number(w.left_out_z, "{:.1f}")});
     return text + "</table>";
 }
 

@@ -37,9 +37,19 @@ TEST(Blind, ScoresARightAndAWrongSet) {
     labels[1] = {"b", "single", 1, {"x"}, {0.5}, 30.0, 20.0, {"g1"}, {"g2"}};
     labels[2] = {"c", "outside", 2, {"x"}, {0.9}, 50.0, 40.0, {"g1"}, {"g2"}};
     std::vector<BlindVerdict> right(3), wrong(3);
-    right[0] = {"a", "NO-GAP", {}, {}, {{"x", 0.01}, {"y", 0.01}}, 0.0, 0.5, {"parameters only"}, {}};
-    right[1] = {"b", "EFFECT", {"x"}, {"g1"}, {{"x", 0.99}, {"y", 0.01}}, 0.0, 0.5, {"x"}, {{"sign table", {"y", "x"}}}};
-    right[2] = {"c", "OUTSIDE-LIBRARY", {}, {"g1"}, {{"y", 0.1}}, 0.8, 0.5, {"none of these"}, {}};
+    const auto fill = [](BlindVerdict& v, const char* id, const char* verdict, const std::vector<std::string>& found, const std::map<std::string, double>& p,
+                         const char* first) {
+        v.id = id;
+        v.verdict = verdict;
+        v.discoveries = found;
+        v.inclusion = p;
+        v.credible_set = {first};
+    };
+    fill(right[0], "a", "NO-GAP", {}, {{"x", 0.01}, {"y", 0.01}}, "parameters only");
+    fill(right[1], "b", "EFFECT", {"g1"}, {{"x", 0.99}, {"y", 0.01}}, "x");
+    fill(right[2], "c", "OUTSIDE-LIBRARY", {"g1"}, {{"y", 0.1}}, "none of these");
+    right[1].named = {"x"};
+    right[1].rules = {{"sign table", {"y", "x"}}};
     wrong = right;
     wrong[0].verdict = "EFFECT";
     wrong[1].inclusion = {{"x", 0.1}, {"y", 0.9}};

@@ -87,6 +87,81 @@ TEST(GaussianProcess, LearnsASmoothResponseAndItsNoise) {
     double z = 0.0;
     for (Eigen::Index i = 0; i < x.runs(); ++i) z += std::pow(left.error[i] / left.deviation[i], 2) / static_cast<double>(x.runs());
     EXPECT_NEAR(std::sqrt(z), 1.0, 0.35);
+
+    // The closed form of the left-out errors is what a process says that never saw these runs.
+    group.assign(all.size(), 0);
+    for (std::size_t i = 0; i < all.size(); ++i) group[i] = static_cast<int>(i / 3);
+    const auto three = gp.leave_groups_out(group);
+    const GaussianProcess rest = gp.without({6, 7, 8});
+    for (Eigen::Index i = 6; i < 9; ++i) {
+        const Eigen::VectorXd phi = x.phi.row(i).transpose(), theta = x.theta.row(i).transpose();
+        EXPECT_NEAR(y[i] - rest.mean(phi, theta), three.error[i], 1e-8);
+        EXPECT_NEAR(std::sqrt(rest.variance(phi, theta) + rest.noise_variance()), three.deviation[i], 1e-8);
+    }
+}
+
+/// A response that bends ten times more at φ_0 = 0 than in the middle, which a kernel with one length for all cannot know; a grid of points, one effect.
+struct SteepEdge {
+    TrainingRuns runs;
+    SteepEdge() {
+        const std::vector<double> grid{0.0, 0.25, 0.5, 0.75, 1.0}, amplitude{0.0, 0.3, 0.6, 1.0};
+        std::vector<Eigen::Vector3d> rows;
+        for (const double a : grid)
+            for (const double b : grid)
+                for (const double t : amplitude) rows.emplace_back(a, b, t);
+        const auto n = static_cast<Eigen::Index>(rows.size());
+        runs.inputs.phi.resize(n, 2);
+        runs.inputs.theta.resize(n, 1);
+        runs.inputs.scatter = Eigen::VectorXd::Ones(n);
+        runs.output.resize(n, 6);
+        RandomStream random(8, 3);
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const Eigen::Vector3d& r = rows[static_cast<std::size_t>(i)];
+            runs.inputs.phi.row(i) << r[0], r[1];
+            runs.inputs.theta(i, 0) = r[2];
+            for (int j = 0; j < 6; ++j) runs.output(i, j) = truth(r, j) + 0.01 * random.normal();
+            runs.point.push_back(static_cast<int>(i / static_cast<Eigen::Index>(amplitude.size())));
+        }
+    }
+    static double truth(const Eigen::Vector3d& r, int j) {
+        const double x = 0.2 * j;
+        return (1.0 + x) * std::exp(-4.0 * r[0]) + x * std::sin(3.0 * r[1] + 5.0 * x * std::exp(-4.0 * r[0])) + (0.5 + x * x) * r[2];
+    }
+    /// Root mean square of (truth − prediction)/(stated deviation) over scores and effects at points that are left out one after the other.
+    double honesty(const Emulator& whole, bool at_edge, double& largest_error) const {
+        double square = 0.0;
+        int count = 0;
+        for (int point = 0; point < 25; ++point) {
+            const int row = point / 5, column = point % 5;
+            const bool edge = row == 0;
+            if (edge != at_edge || (!at_edge && (row == 4 || column == 0 || column == 4))) continue;
+            const Emulator rest = whole.without_point(point);
+            for (int level = 0; level < 4; ++level) {
+                const Eigen::Index i = 4 * point + level;
+                const Eigen::VectorXd phi = runs.inputs.phi.row(i).transpose(), theta = runs.inputs.theta.row(i).transpose();
+                Eigen::VectorXd exact(6);
+                for (int j = 0; j < 6; ++j) exact[j] = truth({phi[0], phi[1], theta[0]}, j);
+                largest_error = std::max(largest_error, (exact - rest.field(phi, theta)).cwiseAbs().maxCoeff());
+                const Eigen::VectorXd error = rest.basis().scores(exact) - rest.scores(phi, theta);
+                square += error.cwiseAbs2().cwiseQuotient(rest.score_covariance(phi, theta, true).diagonal()).sum();
+                count += static_cast<int>(error.size());
+            }
+        }
+        return std::sqrt(square / count);
+    }
+};
+
+TEST(Emulator, StatesAnErrorAtTheEdgeThatIsNotSmallerThanItsRealOne) {
+    const SteepEdge steep;
+    const Emulator emulator(steep.runs, Eigen::VectorXd::Constant(6, 10.0));
+    double error_at_edge = 0.0, error_inside = 0.0;
+    const double edge = steep.honesty(emulator, true, error_at_edge), inside = steep.honesty(emulator, false, error_inside);
+    EXPECT_GT(error_at_edge, 2.0 * error_inside);  // the edge is where it fails
+    EXPECT_LT(edge, 1.4);                          // and it says so: 5 points × 4 levels × modes, strongly correlated
+    EXPECT_LT(inside, 1.4);
+    EXPECT_GT(inside, 0.4);  // without drowning the middle
+    EXPECT_NEAR(emulator.report().edge_rms, 1.0, 0.25);
+    EXPECT_NEAR(emulator.report().inner_rms, 1.0, 0.35);
 }
 
 TEST(Emulator, IsTheSameForAnyNumberOfThreadsAndRefusesTooFewRuns) {

@@ -52,6 +52,35 @@ TEST(Posterior, ModeAndEvidenceOfTheLinearGaussianCase) {
     }
 }
 
+TEST(Posterior, ResidualOperatorTakesOutWhatTheFitAbsorbsWhateverTheMisfit) {
+    const Linear l;
+    Inference p = l.problem();
+    p.prior_deviation.setConstant(infinity);
+    p.nu = 4.0;
+    p.lower.setConstant(-200.0);
+    p.upper.setConstant(200.0);
+    const Eigen::MatrixXd exact = Eigen::MatrixXd::Identity(5, 5) - l.a * (l.a.transpose() * l.a).ldlt().solve(l.a.transpose());
+    for (const double size : {1.0, 12.0}) {  // the data fit well; the data do not fit at all and the heavy tail weighs them down
+        p.whitened_data = size * l.y;
+        const Mode mode = find_mode(p, {Eigen::VectorXd::Zero(2)}, 30);
+        EXPECT_EQ(mode.free, (std::vector<int>{0, 1}));
+        if (size > 1.0) {
+            EXPECT_LT(mode.weight, 0.5);
+        }
+        EXPECT_LT((residual_operator(mode) - exact).cwiseAbs().maxCoeff(), 1e-3);  // the precision's floor: as wide as the box
+        EXPECT_LT((residual_operator(mode) * p.whitened_data - mode.residual).norm(), 1e-2 * mode.residual.norm());
+    }
+    // An unknown that a bound holds absorbs nothing.
+    p.whitened_data = l.y;
+    const double free_value = (l.a.transpose() * l.a).ldlt().solve(l.a.transpose() * l.y)[0];
+    p.lower[0] = free_value + 0.5;
+    const Mode held = find_mode(p, {Eigen::VectorXd::Constant(2, 3.0)}, 30);
+    EXPECT_EQ(held.free, std::vector<int>{1});
+    const Eigen::VectorXd second = l.a.col(1);
+    const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(5, 5) - second * second.transpose() / second.squaredNorm();
+    EXPECT_LT((residual_operator(held) - one).cwiseAbs().maxCoeff(), 1e-3);
+}
+
 TEST(Posterior, ABoundCutsPriorAndPosterior) {
     Linear l;
     Inference p = l.problem();

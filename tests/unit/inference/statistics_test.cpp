@@ -50,6 +50,14 @@ TEST(Statistics, BenjaminiHochbergOnTheirOwnExample) {
     EXPECT_TRUE(found[0] && found[3] && !found[4]);
 }
 
+TEST(Statistics, ExpectedFalseDiscoveriesStopWhereTheMeanDoubtPassesTheRate) {
+    // ascending means: 0.01, 0.015, 0.043, 0.158
+    const auto found = expected_false_discovery_control({0.10, 0.50, 0.01, 0.02}, 0.05);
+    EXPECT_EQ(found, (std::vector<bool>{true, false, true, true}));
+    EXPECT_EQ(expected_false_discovery_control({0.06, 0.5}, 0.05), (std::vector<bool>{false, false}));
+    EXPECT_TRUE(expected_false_discovery_control({}, 0.05).empty());
+}
+
 TEST(Statistics, HolmAdjustsStepByStep) {
     const auto p = holm({0.01, 0.04, 0.03, 0.005});
     EXPECT_DOUBLE_EQ(p[3], 0.02);
@@ -89,6 +97,23 @@ TEST(Gaussian, WhitenedNoiseHasUnitCovarianceAndTheDensityIntegratesToItsClosedF
     // large ν: Gaussian
     EXPECT_NEAR(log_student_density(4.0, 3, 0.5, 1e9), log_student_density(4.0, 3, 0.5, std::numeric_limits<double>::infinity()), 1e-6);
     EXPECT_THROW(Whitener(Eigen::MatrixXd::Zero(2, 2)), std::runtime_error);
+}
+
+TEST(Gaussian, TheHeavyTailBeginsWhereTheDataStopFittingAndNeverSharpens) {
+    const double at = log_heavy_tailed_likelihood(10.0, 10, 0.3, 4.0);
+    EXPECT_NEAR(at, log_student_density(10.0, 10, 0.3, std::numeric_limits<double>::infinity()), 1e-12);  // Gaussian up to χ² = n
+    EXPECT_NEAR(log_heavy_tailed_likelihood(10.0 + 1e-6, 10, 0.3, 4.0) - at, -0.5e-6, 1e-11);             // the same slope beyond
+    // outside, differences are those of the Student t
+    EXPECT_NEAR(log_heavy_tailed_likelihood(80.0, 10, 0.3, 4.0) - log_heavy_tailed_likelihood(50.0, 10, 0.3, 4.0),
+                log_student_density(80.0, 10, 0.3, 4.0) - log_student_density(50.0, 10, 0.3, 4.0), 1e-12);
+    // inside, a difference of χ² counts half of itself however good the fit is; the plain Student t would count it nearly five times
+    EXPECT_NEAR(log_heavy_tailed_likelihood(10.0, 75, 0.0, 4.0) - log_heavy_tailed_likelihood(14.0, 75, 0.0, 4.0), 2.0, 1e-12);
+    EXPECT_GT(log_student_density(10.0, 75, 0.0, 4.0) - log_student_density(14.0, 75, 0.0, 4.0), 9.0);
+    for (const double chi2 : {1.0, 9.0, 30.0, 500.0}) {
+        EXPECT_LE(heavy_tailed_weight(chi2, 10, 4.0), 1.0);
+        const double slope = (log_heavy_tailed_likelihood(chi2 + 1e-4, 10, 0.0, 4.0) - log_heavy_tailed_likelihood(chi2 - 1e-4, 10, 0.0, 4.0)) / 2e-4;
+        EXPECT_NEAR(heavy_tailed_weight(chi2, 10, 4.0), -2.0 * slope, 1e-6);
+    }
 }
 
 TEST(Pod, FindsTheModesItWasMadeOfAndKeepsTheRestApart) {
