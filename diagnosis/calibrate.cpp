@@ -59,7 +59,8 @@ Calibration calibrate(const Attributor& attributor) {
     c.chi2 = fit.mode.chi2;
     c.data = static_cast<int>(y.size());
     c.effective_samples = posterior.effective_samples;
-    const Adequacy adequacy = test_adequacy(problem, fit, problem.experiment.settings.bootstrap, problem.experiment.settings.seed);
+    const Adequacy adequacy =
+        test_adequacy(problem, fit, noise_draws(problem, problem.experiment.settings.bootstrap, problem.experiment.settings.seed, 0x61646571));
     c.adequacy_p = adequacy.p;
     c.misfit = adequacy.family;
 
