@@ -39,15 +39,14 @@ ColourBar bar_of(const std::vector<double>& visible, const std::optional<ValueRa
     return bar;
 }
 
-/// Vertices of the spheres' meshes that a far camera looking along `forward` sees: they face it and no other sphere stands in the way.
-std::vector<bool> seen_along(const Vec3& forward, std::span<const Sphere> spheres, const TriangleMesh& surfaces) {
-    std::vector<bool> seen(surfaces.vertices.size(), false);
-    const std::size_t each = seen.size() / spheres.size();
+/// Vertices that a far camera looking along `forward` sees: they face it and no other sphere stands in the way.
+std::vector<bool> seen_along(const Vec3& forward, std::span<const Sphere> spheres, const detail::ShowingSurface& surface) {
+    std::vector<bool> seen(surface.mesh.vertices.size(), false);
     for (std::size_t i = 0; i < seen.size(); ++i) {
-        const Vec3& p = surfaces.vertices[i];
-        bool free = (p - spheres[i / each].centre).dot(forward) < 0.0;
+        const Vec3& p = surface.mesh.vertices[i];
+        bool free = surface.normals[i].dot(forward) < 0.0;
         for (std::size_t s = 0; free && s < spheres.size(); ++s) {
-            if (s == i / each) continue;
+            if (s == surface.sphere[i]) continue;
             const Vec3 to_centre = spheres[s].centre - p;
             const double along = -to_centre.dot(forward);  // towards the camera
             const double square = to_centre.squaredNorm(), beside = square - along * along, radius = spheres[s].radius;
@@ -66,45 +65,39 @@ SceneObject one_of(TriangleMesh mesh, const Vec3& place) {
     return object;
 }
 
-}  // namespace
-
-Image picture_of_clump(const TriangleMesh& body, std::span<const Sphere> spheres_mesh, std::span<const double> union_vertex_distance,
-                       const PictureSettings& settings) {
-    check_input(body, spheres_mesh);
+/// `distance`: one a vertex of the surface.
+Image draw_clump(const TriangleMesh& body, std::span<const Sphere> spheres_mesh, const detail::ShowingSurface& surface, std::span<const double> distance,
+                 const PictureSettings& settings) {
     const detail::Page page(settings.width);
-    const TriangleMesh surfaces = sphere_surfaces(spheres_mesh);
-    if (union_vertex_distance.size() != surfaces.vertices.size())
-        throw bad_input("the clump to draw has " + std::to_string(surfaces.vertices.size()) + " surface points, but " +
-                        std::to_string(union_vertex_distance.size()) + " distances");
     // Both stand on one ground, left and right of the picture's middle, seen from the same side.
     constexpr double elevation = 0.42, heading = 0.5, field_of_view = 0.12;  // [rad]
     const Vec3 forward(std::cos(elevation) * std::sin(heading), std::cos(elevation) * std::cos(heading), -std::sin(elevation));
-    const std::vector<bool> seen = seen_along(forward, spheres_mesh, surfaces);
+    const std::vector<bool> seen = seen_along(forward, spheres_mesh, surface);
     std::vector<double> visible;  // [mm]
     for (std::size_t i = 0; i < seen.size(); ++i)
-        if (seen[i]) visible.push_back(union_vertex_distance[i] / millimetre);
+        if (seen[i]) visible.push_back(distance[i] / millimetre);
     const ColourBar bar = bar_of(visible, settings.range);
 
     const Vec3 right = forward.cross(Vec3::UnitZ()).normalized();
-    const Box body_box = bounding_box(body), clump_box = bounding_box(surfaces);
+    const Box body_box = bounding_box(body), clump_box = bounding_box(surface.mesh);
     const Vec3 centre = body_box.merged(clump_box).center();
     double half_width = 0.0;
     for (const Vec3& vertex : body.vertices) half_width = std::max(half_width, std::abs((vertex - centre).dot(right)));
-    for (const Vec3& vertex : surfaces.vertices) half_width = std::max(half_width, std::abs((vertex - centre).dot(right)));
+    for (const Vec3& vertex : surface.mesh.vertices) half_width = std::max(half_width, std::abs((vertex - centre).dot(right)));
     const Vec3 body_place = -1.35 * half_width * right;
     const Vec3 clump_place = 1.35 * half_width * right + (body_box.min().z() - clump_box.min().z()) * Vec3::UnitZ();
 
     Scene scene;
     scene.objects.push_back(one_of(body, body_place));
-    scene.objects.push_back(one_of(surfaces, clump_place));
-    for (const double distance : union_vertex_distance)
-        scene.objects.back().vertex_colours.push_back(map_colour(bar.map, bar.range.fraction(distance / millimetre)));
+    scene.objects.push_back(one_of(surface.mesh, clump_place));
+    scene.objects.back().vertex_normals = surface.normals;
+    for (const double value : distance) scene.objects.back().vertex_colours.push_back(map_colour(bar.map, bar.range.fraction(value / millimetre)));
     scene.ground = true;
     scene.ground_level = body_box.min().z();
 
     std::vector<Vec3> outline;
     for (const Vec3& vertex : body.vertices) outline.push_back(vertex + body_place);
-    for (const Vec3& vertex : surfaces.vertices) outline.push_back(vertex + clump_place);
+    for (const Vec3& vertex : surface.mesh.vertices) outline.push_back(vertex + clump_place);
     const double column = colour_bar_width(bar, page.bar_width, page.text) + 2.0 * page.margin;
     const double head = 2.0 * page.margin + page.title.cap_height, foot = 1.6 * page.margin + 2.0 * page.text.cap_height;
     const double width = settings.width - column - 2.0 * page.margin;
@@ -128,28 +121,30 @@ Image picture_of_clump(const TriangleMesh& body, std::span<const Sphere> spheres
     return image;
 }
 
+}  // namespace
+
+Image picture_of_clump(const TriangleMesh& body, std::span<const Sphere> spheres_mesh, std::span<const double> union_vertex_distance,
+                       const PictureSettings& settings) {
+    check_input(body, spheres_mesh);
+    const std::size_t wanted = sphere_surfaces(spheres_mesh).vertices.size();
+    if (union_vertex_distance.size() != wanted)
+        throw bad_input("the clump to draw has " + std::to_string(wanted) + " surface points, but " + std::to_string(union_vertex_distance.size()) +
+                        " distances");
+    const detail::ShowingSurface surface = detail::showing_surface(spheres_mesh);
+    std::vector<double> distance;
+    for (const std::size_t number : surface.number) distance.push_back(union_vertex_distance[number]);
+    return draw_clump(body, spheres_mesh, surface, distance, settings);
+}
+
 Image picture_of_clump(const TriangleMesh& body, std::span<const Sphere> spheres_mesh,
                        const std::function<std::vector<double>(std::span<const Vec3>)>& signed_distance, const PictureSettings& settings) {
     check_input(body, spheres_mesh);
-    const TriangleMesh surfaces = sphere_surfaces(spheres_mesh);
-    const std::vector<double> depth = detail::cover_depth(spheres_mesh, surfaces);
-    double largest = 0.0;
-    for (const Sphere& sphere : spheres_mesh) largest = std::max(largest, sphere.radius);
-    const double rim = largest * detail::relative_edge(spheres_mesh.size());  // a triangle that shows has no corner deeper than this
-
-    std::vector<std::size_t> asked;
-    std::vector<Vec3> points;
-    for (std::size_t i = 0; i < depth.size(); ++i)
-        if (depth[i] <= rim) {
-            asked.push_back(i);
-            points.push_back(surfaces.vertices[i]);
-        }
-    const std::vector<double> answer = signed_distance(points);
-    if (answer.size() != points.size())
-        throw bad_input("the distance query gave " + std::to_string(answer.size()) + " numbers for " + std::to_string(points.size()) + " points");
-    std::vector<double> distance(depth.size(), 0.0);  // hidden points keep 0
-    for (std::size_t k = 0; k < asked.size(); ++k) distance[asked[k]] = answer[k];
-    return picture_of_clump(body, spheres_mesh, distance, settings);
+    const detail::ShowingSurface surface = detail::showing_surface(spheres_mesh);
+    const std::vector<double> distance = signed_distance(surface.mesh.vertices);
+    if (distance.size() != surface.mesh.vertices.size())
+        throw bad_input("the distance query gave " + std::to_string(distance.size()) + " numbers for " + std::to_string(surface.mesh.vertices.size()) +
+                        " points");
+    return draw_clump(body, spheres_mesh, surface, distance, settings);
 }
 
 }  // namespace pelletlab::report

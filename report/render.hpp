@@ -37,6 +37,7 @@ struct SceneObject {
     std::vector<Pose> poses;
     std::vector<Colour> colours;         ///< one a pose
     std::vector<Colour> vertex_colours;  ///< one a vertex of `mesh`, replaces `colours` when not empty
+    std::vector<Vec3> vertex_normals;    ///< unit, own frame, one a vertex of `mesh`, of its true surface; empty: from the faces
     bool glass = false;                  ///< walls: drawn as a thin transparent shell with its edges as lines
     double crease_angle = 0.6;           ///< [rad], faces that meet flatter than this are shaded as one smooth surface
 };

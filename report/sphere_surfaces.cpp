@@ -46,13 +46,43 @@ TriangleMesh unit_sphere(int subdivisions) {
     return mesh;
 }
 
-std::vector<double> cover_depth(std::span<const Sphere> spheres, const TriangleMesh& surfaces) {
-    std::vector<double> depth(surfaces.vertices.size(), -std::numeric_limits<double>::infinity());
-    const std::size_t each = spheres.empty() ? 0 : surfaces.vertices.size() / spheres.size();
-    for (std::size_t i = 0; i < depth.size(); ++i)
-        for (std::size_t s = 0; s < spheres.size(); ++s)
-            if (s != i / each) depth[i] = std::max(depth[i], spheres[s].radius - (surfaces.vertices[i] - spheres[s].centre).norm());
-    return depth;
+ShowingSurface showing_surface(std::span<const Sphere> spheres) {
+    const TriangleMesh unit = unit_sphere(subdivisions_for(spheres.size()));
+    const double edge = relative_edge(spheres.size());
+    ShowingSurface surface;
+    std::vector<std::uint32_t> covers;                          // spheres that may hide a part of this one
+    std::vector<std::uint32_t> place(unit.vertices.size(), 0);  // in the result, of the unit sphere's vertices that can show
+    constexpr std::uint32_t hidden = 0xffffffffu;
+    for (std::uint32_t i = 0; i < spheres.size(); ++i) {
+        const Sphere& own = spheres[i];
+        const double rim = edge * own.radius;
+        covers.clear();
+        for (std::uint32_t s = 0; s < spheres.size(); ++s)
+            if (s != i && spheres[s].radius > rim && (spheres[s].centre - own.centre).norm() < spheres[s].radius - rim + own.radius) covers.push_back(s);
+        for (std::size_t v = 0; v < unit.vertices.size(); ++v) {
+            const Vec3 p = own.centre + own.radius * unit.vertices[v];
+            const auto hides = [&](std::uint32_t s) {
+                const double reach = spheres[s].radius - rim;
+                return (p - spheres[s].centre).squaredNorm() < reach * reach;
+            };
+            const auto found = std::find_if(covers.begin(), covers.end(), hides);
+            place[v] = hidden;
+            if (found != covers.end()) {
+                std::swap(*found, covers.front());  // which often hides the next vertex, too
+                continue;
+            }
+            place[v] = static_cast<std::uint32_t>(surface.mesh.vertices.size());
+            surface.mesh.vertices.push_back(p);
+            surface.normals.push_back(unit.vertices[v]);
+            surface.sphere.push_back(i);
+            surface.number.push_back(i * unit.vertices.size() + v);
+        }
+        for (const Triangle& face : unit.faces) {
+            const Triangle placed = {place[face[0]], place[face[1]], place[face[2]]};
+            if (std::find(placed.begin(), placed.end(), hidden) == placed.end()) surface.mesh.faces.push_back(placed);
+        }
+    }
+    return surface;
 }
 
 double relative_edge(std::size_t sphere_count) {

@@ -34,11 +34,11 @@ double corner_angle(const TriangleMesh& mesh, std::size_t face, int k) {
 std::vector<std::array<Vec3f, 3>> corner_normals(const TriangleMesh& mesh, double crease_angle) {
     struct Corner {
         std::uint32_t face;
-        int k;
+        double angle;
     };
     std::vector<std::vector<Corner>> corners_of_vertex(mesh.vertices.size());
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f)
-        for (int k = 0; k < 3; ++k) corners_of_vertex[mesh.faces[f][static_cast<std::size_t>(k)]].push_back({f, k});
+        for (int k = 0; k < 3; ++k) corners_of_vertex[mesh.faces[f][static_cast<std::size_t>(k)]].push_back({f, corner_angle(mesh, f, k)});
 
     const std::vector<Vec3> normals = unit_normals(mesh);
     const double flattest = std::cos(crease_angle);
@@ -47,7 +47,7 @@ std::vector<std::array<Vec3f, 3>> corner_normals(const TriangleMesh& mesh, doubl
         for (std::size_t k = 0; k < 3; ++k) {
             Vec3 sum = Vec3::Zero();
             for (const Corner& corner : corners_of_vertex[mesh.faces[f][k]])
-                if (normals[corner.face].dot(normals[f]) >= flattest) sum += corner_angle(mesh, corner.face, corner.k) * normals[corner.face];
+                if (normals[corner.face].dot(normals[f]) >= flattest) sum += corner.angle * normals[corner.face];
             const double length = sum.norm();
             result[f][k] = (length > 0.0 ? Vec3(sum / length) : normals[f]).cast<float>();
         }

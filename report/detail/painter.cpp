@@ -17,19 +17,6 @@ Light as_light(const Colour& colour) {
 
 }  // namespace
 
-/// What one camera ray sees.
-struct Painter::Sight {
-    std::uint32_t thing = PixelRecord::nothing;
-    float t = far_away;
-    Vec3f point = Vec3f::Zero();
-    Vec3f true_normal = Vec3f::UnitZ(), normal = Vec3f::UnitZ();  // both towards the eye; `normal` is the smooth one
-    Light surface = Light::Ones();
-    Light key = Light::Zero(), open_sky = Light::Zero(), blocked_sky = Light::Zero();
-    float key_seen = 1.0f, sky_seen = 1.0f;
-    Light veil = Light::Zero();
-    float through = 1.0f;
-};
-
 /// Up to sixteen camera rays of one pixel.
 struct Painter::Packet {
     std::size_t count = 0;
@@ -72,9 +59,11 @@ void Painter::read_surface(const Hit& hit, Sight& seen) const {
     seen.surface = (1.0f - hit.u - hit.v) * colour(0) + hit.u * colour(1) + hit.v * colour(2);
 }
 
-Painter::Sight Painter::sight(const RayPacket& rays, std::size_t lane, const Hit& hit) const {
+Sight Painter::sight(const RayPacket& rays, std::size_t lane, const Hit& hit) const {
     Sight seen;
     const Vec3f view = rays.along(lane);
+    seen.t = far_away;
+    seen.view = view;
     if (hit.found) {
         seen.thing = hit.instance;
         seen.t = hit.t;
@@ -93,16 +82,21 @@ Painter::Sight Painter::sight(const RayPacket& rays, std::size_t lane, const Hit
     return seen;
 }
 
+/// Camera ray through the point (x, y) of the picture.
+void Painter::aim(RayPacket& rays, std::size_t lane, double x, double y) const {
+    const Ray ray = camera_.ray(x, y);
+    // Everything lies within 1 of the origin: rays from afar start 2 before it, else single precision would blur them.
+    Vec3 origin = prepared_.scaled(ray.origin);
+    origin += std::max(0.0, -origin.dot(ray.direction) - 2.0) * ray.direction;
+    rays.set(lane, origin.cast<float>(), ray.direction.cast<float>(), 0.0f, far_away);
+}
+
 Painter::Packet Painter::look(std::uint32_t x, std::uint32_t y, const PixelSamples& pattern, std::size_t first) const {
     Packet packet;
     packet.count = std::min<std::size_t>(packet_size, samples_ - first);
     for (std::size_t i = 0; i < packet.count; ++i) {
         const Point2 film = pattern.film(first + i);
-        const Ray ray = camera_.ray(x + film[0], y + film[1]);
-        // Everything lies within 1 of the origin: rays from afar start 2 before it, else single precision would blur them.
-        Vec3 origin = prepared_.scaled(ray.origin);
-        origin += std::max(0.0, -origin.dot(ray.direction) - 2.0) * ray.direction;
-        packet.rays.set(i, origin.cast<float>(), ray.direction.cast<float>(), 0.0f, far_away);
+        aim(packet.rays, i, x + film[0], y + film[1]);
     }
     Lanes<Hit> hits;
     tracer_.first_hits(Layer::opaque, packet.rays, hits);
@@ -114,7 +108,7 @@ Painter::Packet Painter::look(std::uint32_t x, std::uint32_t y, const PixelSampl
 }
 
 /// Lights of a point before anything stands in their way.
-void Painter::shade(Sight& seen, const Vec3f& view) const {
+void Painter::shade(Sight& seen) const {
     const float towards_key = std::max(0.0f, seen.normal.dot(light_.to_key));
     const float key = light_.key_strength * towards_key, sky = open_sky(light_, seen.normal);
     if (seen.thing == PixelRecord::ground) {  // share of what an empty ground would receive
@@ -128,7 +122,7 @@ void Painter::shade(Sight& seen, const Vec3f& view) const {
     seen.open_sky = sky * seen.surface;
     seen.blocked_sky = light_.bounce * sky * seen.surface * (0.35f + 0.65f * seen.surface);
     if (towards_key > 0.0f) {
-        float highlight = std::max(0.0f, seen.normal.dot((light_.to_key - view).normalized()));
+        float highlight = std::max(0.0f, seen.normal.dot((light_.to_key - seen.view).normalized()));
         for (int square = 0; square < 5; ++square) highlight *= highlight;  // (n·h)^32
         seen.key += light_.gloss * highlight;
     }
@@ -141,7 +135,7 @@ void Painter::light_every_ray(Packet& packet, const PixelSamples& pattern, std::
         Sight& seen = packet.seen[i];
         if (seen.thing == PixelRecord::nothing) continue;
         const Vec3f sky_direction = above(cosine_direction(seen.normal, pattern.sky(first + i)), seen.true_normal);
-        shade(seen, packet.rays.along(i));
+        shade(seen);
         sky_rays.set(i, seen.point, sky_direction, 0.0f, far_away);
         if (seen.normal.dot(light_.to_key) > 0.0f)
             key_rays.set(i, seen.point, above(cone_direction(light_.to_key, light_.key_spread, pattern.key(first + i)), seen.true_normal), 0.0f, far_away);
@@ -164,7 +158,7 @@ std::size_t Painter::light_some_rays(Packet& packet, const PixelSamples& pattern
     float key_tried = 0.0f, key_passed = 0.0f, sky_passed = 0.0f;
     for (std::size_t i = 0; i < count; ++i) {
         Sight& seen = packet.seen[i];
-        shade(seen, packet.rays.along(i));
+        shade(seen);
         rays.set(half + i, seen.point, above(cosine_direction(seen.normal, pattern.sky(first + i)), seen.true_normal), 0.0f, far_away);
         if (seen.normal.dot(light_.to_key) <= 0.0f) continue;
         rays.set(i, seen.point, above(cone_direction(light_.to_key, light_.key_spread, pattern.key(first + i)), seen.true_normal), 0.0f, far_away);
@@ -179,6 +173,46 @@ std::size_t Painter::light_some_rays(Packet& packet, const PixelSamples& pattern
     packet.seen[0].key_seen = key_tried > 0.0f ? key_passed / key_tried : 0.0f;
     packet.seen[0].sky_seen = sky_passed / static_cast<float>(count);
     return count;
+}
+
+void Painter::glance(std::uint32_t x, std::uint32_t y, std::span<Sight> seen) const {
+    RayPacket rays;
+    for (std::size_t i = 0; i < seen.size(); ++i) aim(rays, i, x + static_cast<double>(i) + 0.5, y + 0.5);
+    Lanes<Hit> hits;
+    tracer_.first_hits(Layer::opaque, rays, hits);
+    for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = sight(rays, i, hits[i]);
+}
+
+void Painter::light_plain(std::span<const PlainPixel> pixels, std::size_t each, std::uint32_t side) const {
+    RayPacket rays;
+    for (std::size_t p = 0; p < pixels.size(); ++p) {
+        Sight& seen = *pixels[p].seen;
+        shade(seen);
+        const bool lit = seen.normal.dot(light_.to_key) > 0.0f;
+        for (std::size_t i = 0; i < each; ++i) {
+            const Point2 sample = shared_point(pixels[p].x, pixels[p].y, side, each, i);
+            const std::size_t lane = 2 * each * p + i;
+            rays.set(lane + each, seen.point, above(cosine_direction(seen.normal, sample), seen.true_normal), 0.0f, far_away);
+            if (lit) rays.set(lane, seen.point, above(cone_direction(light_.to_key, light_.key_spread, sample), seen.true_normal), 0.0f, far_away);
+        }
+    }
+    Lanes<bool> blocked;
+    tracer_.blocked(rays, blocked);
+    for (std::size_t p = 0; p < pixels.size(); ++p) {
+        const Sight& seen = *pixels[p].seen;
+        PixelRecord& record = *pixels[p].record;
+        record.thing = seen.thing;
+        record.normal = seen.normal;
+        record.key = seen.key;
+        record.open_sky = seen.open_sky;
+        record.blocked_sky = seen.blocked_sky;
+        record.key_seen = record.sky_seen = 0.0f;
+        for (std::size_t i = 0; i < each; ++i) {
+            const std::size_t lane = 2 * each * p + i;
+            if (rays.active[lane] && !blocked[lane]) record.key_seen += 1.0f / static_cast<float>(each);
+            if (!blocked[lane + each]) record.sky_seen += 1.0f / static_cast<float>(each);
+        }
+    }
 }
 
 /// Glass in front of what was seen: layer by layer from the eye, each lets 1 − opacity through.

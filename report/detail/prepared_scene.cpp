@@ -17,6 +17,8 @@ void check(const SceneObject& object, std::size_t number) {
     const bool coloured_mesh = !object.vertex_colours.empty();
     if (coloured_mesh && object.vertex_colours.size() != object.mesh.vertices.size())
         fail(std::to_string(object.vertex_colours.size()) + " vertex colours for " + std::to_string(object.mesh.vertices.size()) + " vertices");
+    if (!object.vertex_normals.empty() && object.vertex_normals.size() != object.mesh.vertices.size())
+        fail(std::to_string(object.vertex_normals.size()) + " vertex normals for " + std::to_string(object.mesh.vertices.size()) + " vertices");
     const bool needs_colours = !object.glass && (!coloured_mesh || !object.spheres.empty());
     if (needs_colours ? object.colours.size() != object.poses.size() : !(object.colours.empty() || object.colours.size() == object.poses.size()))
         fail(std::to_string(object.colours.size()) + " colours for " + std::to_string(object.poses.size()) + " poses");
@@ -54,7 +56,12 @@ PreparedObject prepare_object(const SceneObject& object, double scale) {
     prepared.vertex_colours = object.vertex_colours;
     prepared.faces = object.mesh.faces;
     for (const Vec3& vertex : object.mesh.vertices) prepared.vertices.push_back((vertex * scale).cast<float>());
-    prepared.corner_normals = corner_normals(object.mesh, object.crease_angle);
+    if (object.vertex_normals.empty()) {
+        prepared.corner_normals = corner_normals(object.mesh, object.crease_angle);
+    } else {
+        const auto normal = [&object](std::uint32_t vertex) -> Vec3f { return object.vertex_normals[vertex].cast<float>(); };
+        for (const Triangle& face : object.mesh.faces) prepared.corner_normals.push_back({normal(face[0]), normal(face[1]), normal(face[2])});
+    }
     for (const Sphere& sphere : object.spheres) {
         const Vec3 centre = sphere.centre * scale;
         prepared.spheres.emplace_back(Eigen::Vector4d(centre.x(), centre.y(), centre.z(), sphere.radius * scale).cast<float>());

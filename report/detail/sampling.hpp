@@ -1,4 +1,4 @@
-// Sample points of a pixel: an even (low-discrepancy) pattern, shifted by random numbers that depend on the pixel alone.
+// Sample points of a pixel: an even (low-discrepancy) pattern, shifted by random numbers that depend on the pixel alone, or shared out among neighbours.
 #pragma once
 
 #include <array>
@@ -12,8 +12,21 @@ namespace pelletlab::report::detail {
 
 using Point2 = std::array<double, 2>;
 
-/// Three patterns on the unit square for one pixel: where rays start, where the key light is met, where the sky is met. Each is Roberts' R2
-/// sequence (M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences") with a random shift (Cranley & Patterson 1976; key cranley1976).
+/// n-th point of Roberts' R2 sequence on the unit square (M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"), shifted.
+inline Point2 even_point(std::size_t n, const Point2& shift) {
+    constexpr double a1 = 0.7548776662466927, a2 = 0.5698402909980532;  // 1/g and 1/g², g³ = g + 1
+    const double x = shift[0] + static_cast<double>(n) * a1, y = shift[1] + static_cast<double>(n) * a2;
+    return {x - std::floor(x), y - std::floor(y)};
+}
+
+/// Sample i of the `each` that a pixel takes when every square of side × side pixels is to hold one even set: the mean over such a square, wherever it lies, is
+/// that of side² · each even points, so it shows no noise from pixel to pixel.
+inline Point2 shared_point(std::uint32_t x, std::uint32_t y, std::uint32_t side, std::size_t each, std::size_t i) {
+    return even_point((std::size_t{y % side} * side + x % side) * each + i, {0.5, 0.5});
+}
+
+/// Three patterns on the unit square for one pixel: where rays start, where the key light is met, where the sky is met. Each is
+/// even_point() with a random shift (Cranley & Patterson 1976; key cranley1976).
 class PixelSamples {
 public:
     explicit PixelSamples(std::uint64_t pixel) {
@@ -26,12 +39,9 @@ public:
 
 private:
     Point2 point(std::size_t pattern, std::size_t i) const {
-        constexpr double a1 = 0.7548776662466927, a2 = 0.5698402909980532;  // 1/g and 1/g², g³ = g + 1
         // Another order of the same sixteen points for each pattern: where a ray starts must not decide where its light comes from.
         constexpr std::array<std::size_t, 3> stride = {1, 7, 11};
-        const auto n = static_cast<double>((i & ~std::size_t{15}) + ((i & 15) * stride[pattern] & 15));
-        const double x = shifts_[pattern][0] + n * a1, y = shifts_[pattern][1] + n * a2;
-        return {x - std::floor(x), y - std::floor(y)};
+        return even_point((i & ~std::size_t{15}) + ((i & 15) * stride[pattern] & 15), shifts_[pattern]);
     }
     std::array<Point2, 3> shifts_;
 };

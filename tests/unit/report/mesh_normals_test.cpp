@@ -48,14 +48,31 @@ TEST(SphereMesh, LiesOnTheSphereAndFacesOutward) {
     }
 }
 
-TEST(SphereMesh, CoverDepthIsTheDepthInTheOtherSphere) {
-    const std::vector<Sphere> spheres = {{{0.0, 0.0, 0.0}, 1.0}, {{1.0, 0.0, 0.0}, 1.0}};
-    const TriangleMesh surfaces = sphere_surfaces(spheres);
-    const std::vector<double> depth = detail::cover_depth(spheres, surfaces);
-    for (std::size_t i = 0; i < depth.size(); ++i) {
-        const std::size_t other = i < depth.size() / 2 ? 1 : 0;
-        EXPECT_NEAR(depth[i], 1.0 - (surfaces.vertices[i] - spheres[other].centre).norm(), 1e-12);
+TEST(SphereMesh, WhatCanShowIsNearTheUnionsSurface) {
+    const std::vector<Sphere> spheres = {{{0.0, 0.0, 0.0}, 1.0}, {{1.0, 0.0, 0.0}, 0.8}, {{0.1, 0.0, 0.0}, 0.3}};  // the last one is hidden
+    const TriangleMesh all = sphere_surfaces(spheres);
+    const detail::ShowingSurface surface = detail::showing_surface(spheres);
+    const std::size_t each = all.vertices.size() / spheres.size();
+    const double edge = detail::relative_edge(spheres.size());
+    std::vector<bool> kept(all.vertices.size(), false);
+    for (std::size_t k = 0; k < surface.mesh.vertices.size(); ++k) {
+        const Sphere& own = spheres[surface.sphere[k]];
+        kept[surface.number[k]] = true;
+        ASSERT_EQ(surface.number[k] / each, surface.sphere[k]);
+        ASSERT_LT((surface.mesh.vertices[k] - all.vertices[surface.number[k]]).norm(), 1e-12);
+        ASSERT_LT((surface.mesh.vertices[k] - own.centre - own.radius * surface.normals[k]).norm(), 1e-12);
     }
+    std::size_t showing = 0;
+    for (std::size_t i = 0; i < all.vertices.size(); ++i) {
+        double deepest = -1.0;
+        for (std::size_t s = 0; s < spheres.size(); ++s)
+            if (s != i / each) deepest = std::max(deepest, spheres[s].radius - (all.vertices[i] - spheres[s].centre).norm());
+        ASSERT_EQ(kept[i], deepest <= edge * spheres[i / each].radius) << i;
+        showing += deepest < 0.0 ? 1 : 0;
+    }
+    EXPECT_GT(showing, each);
+    EXPECT_LT(surface.mesh.vertices.size(), 2 * each);
+    for (const std::uint32_t owner : surface.sphere) EXPECT_NE(owner, 2u);
 }
 
 TEST(SphereMesh, LongestEdgeIsAsStated) {
