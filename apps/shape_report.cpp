@@ -80,7 +80,7 @@ void print_cost(const shapegen::MadeClump& made) {
                                           made.cost.contacts_mean)}});
 }
 
-void print_fit(const shapegen::MadeClump& made) {
+void print_fit(const shapegen::MadeClump& made, double reading) {
     std::string status = "converged";
     if (made.fit.status == shapegen::FitStatus::stopped_early)
         status = "stopped early: the steps were used up while it still gained a little; the fit is sound";
@@ -90,8 +90,8 @@ void print_fit(const shapegen::MadeClump& made) {
     if (made.attempts > 1) rows.emplace_back("fits made", std::to_string(made.attempts));
     if (!made.fit.symmetry.trivial()) rows.emplace_back("symmetry", shapegen::describe(made.fit.symmetry));
     rows.emplace_back("search distance", fmt::format("off by at most {:.2g} mm (figures use the exact one)", 1e3 * made.search_error));
-    rows.emplace_back("time", fmt::format("{:.2f} s distance, {:.2f} s seeds, {:.2f} s search, {:.2f} s finish, {:.2f} s figures", made.times.distance,
-                                          made.fit.times.seeds, made.fit.times.search, made.fit.times.finish, made.times.quality));
+    rows.emplace_back("time", fmt::format("{:.2f} s reading, {:.2f} s distance, {:.2f} s seeds, {:.2f} s search, {:.2f} s finish, {:.2f} s figures", reading,
+                                          made.times.distance, made.fit.times.seeds, made.fit.times.search, made.fit.times.finish, made.times.quality));
     print_pairs(rows);
 }
 

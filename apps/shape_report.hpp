@@ -28,7 +28,8 @@ void print_surface(const shapegen::MadeClump& made);
 void print_cost(const shapegen::MadeClump& made);
 
 /// How the fit ended, its symmetry, and where the time went.
-void print_fit(const shapegen::MadeClump& made);
+/// With the wall-clock time of the stages; `reading`: of the mesh and its check [s].
+void print_fit(const shapegen::MadeClump& made, double reading);
 
 struct QualityRow {
     std::string name;

@@ -52,25 +52,23 @@ std::string name_of_result(const ShapeRequest& request) {
     return find_method(request.method).name + (request.volume_matched ? ", volume-matched" : "");
 }
 
-void print_quality(const ShapeRequest& request, const shapegen::MadeClump& made, const TriangleMesh& body) {
+void print_quality(const ShapeRequest& request, const shapegen::MadeClump& made, const TriangleMesh& body, const meshes::SignedDistance& exact) {
     std::vector<QualityRow> rows{{name_of_result(request), made.fit.spheres.size(), made.clump.quality}};
     if (!request.against.empty()) {
-        const auto exact = meshes::exact_signed_distance(body);
         const double volume = meshes::mass_properties(body, 1.0).volume;
         for (const std::string& id : request.against) {
             const std::vector<Sphere> spheres =
-                spheres_of_method(id, body, *exact, static_cast<std::uint32_t>(made.fit.spheres.size()), request.settings.fit.seed);
-            rows.push_back({find_method(id).name, spheres.size(), shapegen::measure_quality(spheres, body, *exact)});
+                spheres_of_method(id, body, exact, static_cast<std::uint32_t>(made.fit.spheres.size()), request.settings.fit.seed);
+            rows.push_back({find_method(id).name, spheres.size(), shapegen::measure_quality(spheres, body, exact)});
             const std::vector<Sphere> matched = shapegen::baselines::volume_matched(spheres, volume);
-            rows.push_back({"  the same, volume-matched", matched.size(), shapegen::measure_quality(matched, body, *exact)});
+            rows.push_back({"  the same, volume-matched", matched.size(), shapegen::measure_quality(matched, body, exact)});
         }
     }
     print_quality_table(rows);
 }
 
-void write_picture(const TriangleMesh& body, const shapegen::FitResult& fit, const fs::path& file) {
-    const auto exact = meshes::exact_signed_distance(body);
-    const auto distance = [&exact](std::span<const Vec3> points) { return exact->values(points); };
+void write_picture(const TriangleMesh& body, const meshes::SignedDistance& exact, const shapegen::FitResult& fit, const fs::path& file) {
+    const auto distance = [&exact](std::span<const Vec3> points) { return exact.values(points); };
     report::write_png(report::picture_of_clump(body, fit.spheres, distance, {}), file);
     print_written(file, "the body, and the clump coloured by its distance from it");
 }
@@ -104,14 +102,14 @@ fs::path stem_of(const fs::path& clump_file) {
 }
 
 shapegen::MadeClump make_by_method(const TriangleMesh& body, const std::string& method, bool volume_matched, const shapegen::ClumpSettings& settings,
-                                   const ProgressSink& progress) {
+                                   const ProgressSink& progress, std::shared_ptr<const meshes::SignedDistance> exact) {
     if (method == fit_method) {
         shapegen::ClumpSettings aimed = settings;
         aim_symmetry(body, aimed.fit);
-        return shapegen::make_clump(body, aimed, progress);
+        return shapegen::make_clump(body, aimed, progress, std::move(exact));
     }
     if (progress) progress({"placing spheres by " + find_method(method).name, 0.0, 1.0, "", 0.0, "", ""});
-    const auto exact = meshes::exact_signed_distance(body);
+    if (!exact) exact = meshes::exact_signed_distance(body);
     std::vector<Sphere> spheres = spheres_of_method(method, body, *exact, settings.fit.sphere_count, settings.fit.seed);
     if (volume_matched) spheres = shapegen::baselines::volume_matched(spheres, meshes::mass_properties(body, 1.0).volume);
     return shapegen::judged_clump(spheres, body, *exact, settings);
@@ -138,21 +136,25 @@ void run_shape(const ShapeRequest& request) {
         return;
     }
     BodyOnDisk body(request.body, stem_of(request.output));
+    const double reading = stopwatch.seconds();
+    const std::shared_ptr<const meshes::SignedDistance> exact = meshes::exact_signed_distance(body.mesh());
+    const double exact_distance = stopwatch.seconds() - reading;
     const fs::path folder = request.output.has_parent_path() ? request.output.parent_path() : fs::path(".");
 
     ProgressPrinter progress;
-    shapegen::MadeClump made = make_by_method(body.mesh(), request.method, request.volume_matched, request.settings, progress.sink());
+    shapegen::MadeClump made = make_by_method(body.mesh(), request.method, request.volume_matched, request.settings, progress.sink(), exact);
     progress.finish();
+    made.times.distance += exact_distance;
     throw_if_interrupted();
 
     label(made.clump, request, body, key);
     print_masses(made);
-    print_quality(request, made, body.mesh());
+    print_quality(request, made, body.mesh(), *exact);
     print_surface(made);
     print_cost(made);
-    if (request.method == fit_method) print_fit(made);
+    if (request.method == fit_method) print_fit(made, reading);
     io::prepare_output_folder(folder);
-    if (request.picture) write_picture(body.mesh(), made.fit, picture);
+    if (request.picture) write_picture(body.mesh(), *exact, made.fit, picture);
     io::write_clump(made.clump, request.output);
     body.keep();
     if (body.made_here()) print_written(body.file(), "the body");

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "apps/shape_methods.hpp"
 #include "core/clump_template.hpp"
 #include "core/triangle_mesh.hpp"
+#include "meshes/signed_distance.hpp"
 #include "shapegen/make_clump.hpp"
 
 namespace pelletlab::apps {
@@ -37,8 +39,9 @@ struct QuietClump {
 QuietClump ensure_clump(const ShapeRequest& request, const BodyOnDisk& body, const ProgressSink& progress);
 
 /// The clump by the method of the request: fitted, or made by another method and judged by the same code. Spheres of `fit` are in the frame of the mesh.
+/// `exact`: the body's exact distance, where that is known already.
 shapegen::MadeClump make_by_method(const TriangleMesh& body, const std::string& method, bool volume_matched, const shapegen::ClumpSettings& settings,
-                                   const ProgressSink& progress);
+                                   const ProgressSink& progress, std::shared_ptr<const meshes::SignedDistance> exact = nullptr);
 
 /// The output's path without .clump.toml: pictures and meshes that go with it start with that.
 std::filesystem::path stem_of(const std::filesystem::path& clump_file);

@@ -1,6 +1,6 @@
 // Prints the accuracy table of the fit: bodies × modes × numbers of spheres, with errors, roughness, DEM cost and seconds, and the other methods.
 // clump_table [cylinder|trilobe|ring|scan|all] [N …] [mean|minimax|inside|outside|flat …] [symmetric] [baselines], one thread; environment: VOXEL (share of the
-// smallest extent, 0: exact query), EFFORT, CSV (folder for the spheres).
+// smallest extent, 0: exact query), EFFORT, SEED, CSV (folder for the spheres).
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -93,6 +93,7 @@ int main(int argc, char** argv) {
                 settings.fit.mode = mode;
                 if (symmetric) settings.fit.symmetry_choice = shapegen::SymmetryChoice::own;
                 if (const char* voxel = std::getenv("VOXEL")) settings.voxel_fraction = std::atof(voxel);
+                if (const char* seed = std::getenv("SEED")) settings.fit.seed = std::strtoull(seed, nullptr, 10);
                 if (const char* effort = std::getenv("EFFORT")) settings.fit.effort = std::atof(effort);
                 const shapegen::MadeClump made = shapegen::make_clump(checked.mesh, settings);
                 if (const char* folder = std::getenv("CSV"))

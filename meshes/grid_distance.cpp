@@ -23,7 +23,7 @@ constexpr double band_safety = 2.0;  // nor is the worst cell of a band among th
 /// A dense block of distances at the points origin + voxel · (i, j, k).
 class GridDistance final : public SignedDistance {
 public:
-    GridDistance(const TriangleMesh& mesh, double voxel, GridFill fill);
+    GridDistance(const TriangleMesh& mesh, double voxel, GridFill fill, std::shared_ptr<const SignedDistance> exact);
     double value(const Vec3& p) const override;
     Vec3 gradient(const Vec3& p) const override { return sample(p).gradient; }
     DistanceSample sample(const Vec3& p) const override;
@@ -39,6 +39,7 @@ private:
     Cell locate(const Vec3& p) const;
     double interpolate(const Cell& cell) const;
     void fill_exactly(const SignedDistance& exact);
+    void fill_band(const SignedDistance& exact);
     double measure_error(const SignedDistance& exact) const;
     std::size_t points() const { return nx_ * ny_ * nz_; }
     Vec3 point(std::size_t i, std::size_t j, std::size_t k) const {
@@ -51,11 +52,12 @@ private:
     std::size_t nx_ = 0, ny_ = 0, nz_ = 0;                      ///< points along each axis
     std::vector<float> distance_;                               ///< [m], x runs fastest
     double trusted_ = std::numeric_limits<double>::infinity();  ///< [m], larger interpolated values are asked of the exact query
-    std::unique_ptr<SignedDistance> exact_;                     ///< kept with OpenVDB's band only
+    std::shared_ptr<const SignedDistance> exact_;               ///< kept with a band only
     double error_bound_ = 0.0;
 };
 
-GridDistance::GridDistance(const TriangleMesh& mesh, double voxel, GridFill fill) : voxel_(voxel), inverse_voxel_(1.0 / voxel), fill_(fill) {
+GridDistance::GridDistance(const TriangleMesh& mesh, double voxel, GridFill fill, std::shared_ptr<const SignedDistance> exact)
+    : voxel_(voxel), inverse_voxel_(1.0 / voxel), fill_(fill) {
     const Box box = bounding_box(mesh);
     const double smallest = box.sizes().minCoeff();
     if (!(voxel > 0.0) || !(voxel <= 0.25 * smallest))
@@ -78,13 +80,16 @@ GridDistance::GridDistance(const TriangleMesh& mesh, double voxel, GridFill fill
     nx_ = count[0];
     ny_ = count[1];
     nz_ = count[2];
-    exact_ = exact_signed_distance(mesh);  // also refuses open meshes
+    exact_ = exact ? std::move(exact) : exact_signed_distance(mesh);  // which also refuses open meshes
     if (fill == GridFill::exact_query) {
         fill_exactly(*exact_);
         error_bound_ = measure_error(*exact_);
         exact_.reset();
     } else {
-        distance_ = detail::openvdb_distances(mesh, {origin_, voxel_, count}, band_voxels);
+        if (fill == GridFill::openvdb)
+            distance_ = detail::openvdb_distances(mesh, {origin_, voxel_, count}, band_voxels);
+        else
+            fill_band(*exact_);
         trusted_ = (band_voxels - std::sqrt(3.0)) * voxel_;  // then all corners of the cell lie in the band
         error_bound_ = measure_error(*exact_);
     }
@@ -95,6 +100,21 @@ void GridDistance::fill_exactly(const SignedDistance& exact) {
     parallel_for(ny_ * nz_, 4, [&](std::size_t row) {
         float* out = distance_.data() + row * nx_;
         for (std::size_t i = 0; i < nx_; ++i) out[i] = static_cast<float>(exact.value(point(i, row % ny_, row / ny_)));
+    });
+}
+
+// A distance changes by no more than the way gone: far from the surface most points of a row need no query.
+void GridDistance::fill_band(const SignedDistance& exact) {
+    const double width = band_voxels * voxel_;
+    distance_.resize(points());
+    parallel_for(ny_ * nz_, 4, [&](std::size_t row) {
+        float* out = distance_.data() + row * nx_;
+        for (std::size_t i = 0; i < nx_;) {
+            const double d = exact.value(point(i, row % ny_, row / ny_));
+            const double outside_band = std::abs(d) - width;
+            out[i++] = static_cast<float>(outside_band > 0.0 ? std::copysign(width, d) : d);
+            for (double next = voxel_; next < outside_band && i < nx_; next += voxel_) out[i++] = static_cast<float>(std::copysign(width, d));
+        }
     });
 }
 
@@ -146,7 +166,7 @@ DistanceSample GridDistance::sample(const Vec3& p) const {
 
 double GridDistance::measure_error(const SignedDistance& exact) const {
     const std::size_t cells_x = nx_ - 1, cells_y = ny_ - 1, cells = cells_x * cells_y * (nz_ - 1);
-    const bool band = fill_ == GridFill::openvdb;
+    const bool band = fill_ != GridFill::exact_query;
     const auto middle_of = [&](std::size_t cell) {
         return Vec3(point(cell % cells_x, cell / cells_x % cells_y, cell / (cells_x * cells_y)) + Vec3::Constant(0.5 * voxel_));
     };
@@ -168,7 +188,7 @@ double GridDistance::measure_error(const SignedDistance& exact) const {
                                                 for (std::size_t s = begin; s < end; ++s) {
                                                     const Vec3 middle = middle_of(band ? asked[s * stride] : s * stride);
                                                     most.in_middle = std::max(most.in_middle, std::abs(value(middle) - exact.value(middle)));
-                                                    if (!band) continue;
+                                                    if (fill_ != GridFill::openvdb) continue;  // the points are exact
                                                     const Vec3 corner = middle - Vec3::Constant(0.5 * voxel_);
                                                     most.at_point = std::max(most.at_point, std::abs(value(corner) - exact.value(corner)));
                                                 }
@@ -187,9 +207,9 @@ double GridDistance::measure_error(const SignedDistance& exact) const {
 
 }  // namespace
 
-std::unique_ptr<SignedDistance> grid_signed_distance(const TriangleMesh& mesh, double voxel_size, GridFill fill) {
+std::unique_ptr<SignedDistance> grid_signed_distance(const TriangleMesh& mesh, double voxel_size, GridFill fill, std::shared_ptr<const SignedDistance> exact) {
     if (mesh.empty()) throw bad_input("a mesh without triangles has no distance", "pass the mesh through require_closed_body first");
-    return std::make_unique<GridDistance>(mesh, voxel_size, fill);
+    return std::make_unique<GridDistance>(mesh, voxel_size, fill, std::move(exact));
 }
 
 }  // namespace pelletlab::meshes

@@ -15,7 +15,7 @@ struct DistanceSample {
     Vec3 gradient = Vec3::Zero();  ///< unit length where φ is smooth
 };
 
-/// One way of computing the distance: the exact mesh query, or the OpenVDB grid. All queries are const and may run side by side.
+/// One way of computing the distance: the exact mesh query, or a grid. All queries are const and may run side by side.
 class SignedDistance {
 public:
     virtual ~SignedDistance() = default;
@@ -42,17 +42,20 @@ std::unique_ptr<SignedDistance> winding_signed_distance(const TriangleMesh& mesh
 /// Who computes the distances at the points of a grid.
 enum class GridFill {
     exact_query,  ///< the exact query at each point, in the whole interior and the rim
+    exact_band,   ///< the exact query at the points in a band of 4 voxels on both sides of the surface; farther away it answers itself
     openvdb       ///< OpenVDB's mesh to level set conversion, in a band of 4 voxels on both sides of the surface; farther away the exact query answers itself
 };
 
 /// Distances on a regular grid of the given voxel size, trilinear between its points, kept as one dense block of floats. Fast, for searching.
 /// The grid covers the body's bounding box and a rim of max(0.25 · its smallest edge, 3 voxels) and is centred on the body. Beyond it the value is that of the
 /// nearest point of the grid's box plus the way to it, an upper bound of the distance.
-/// The error bound is measured against the exact query when the grid is built, at the middles of all cells (of every n-th above two million; of OpenVDB's
-/// band at middles and corners, every n-th above five thousand): 1.5 × (the band: 2 ×) the largest error found, but at most √3/2 voxels, which no interpolated
+/// The error bound is measured against the exact query when the grid is built, at the middles of all cells (of every n-th above two million; of a band of
+/// every n-th above five thousand, OpenVDB's also at corners): 1.5 × (a band: 2 ×) the largest error found, but at most √3/2 voxels, which no interpolated
 /// distance exceeds when it is exact at the points. It holds inside the grid's box.
 /// Throws Error(bad_input) for a voxel that is not positive, wider than a quarter of the body's smallest extent, or so small that more than 512 million are
 /// needed, and for a mesh that exact_signed_distance refuses.
-std::unique_ptr<SignedDistance> grid_signed_distance(const TriangleMesh& mesh, double voxel_size, GridFill fill = GridFill::exact_query);
+/// `exact`: that of the same mesh, where it is known already.
+std::unique_ptr<SignedDistance> grid_signed_distance(const TriangleMesh& mesh, double voxel_size, GridFill fill = GridFill::exact_query,
+                                                     std::shared_ptr<const SignedDistance> exact = nullptr);
 
 }  // namespace pelletlab::meshes

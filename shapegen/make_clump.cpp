@@ -51,7 +51,8 @@ MadeClump judged_clump(std::span<const Sphere> spheres_mesh, const TriangleMesh&
     return made;
 }
 
-MadeClump make_clump(const TriangleMesh& body, const ClumpSettings& settings, const ProgressSink& progress) {
+MadeClump make_clump(const TriangleMesh& body, const ClumpSettings& settings, const ProgressSink& progress,
+                     std::shared_ptr<const meshes::SignedDistance> exact) {
     if (!(settings.density > 0.0)) throw bad_input("the particle density is not positive", "give it like 1800 kg/m^3");
     if (!(settings.voxel_fraction >= 0.0 && settings.voxel_fraction <= 0.25)) {
         throw bad_input("the voxel fraction is not between 0 and 1/4", "give 0 for exact distances, or for instance 1/64 of the smallest extent");
@@ -66,10 +67,10 @@ MadeClump make_clump(const TriangleMesh& body, const ClumpSettings& settings, co
         last = now;
         return seconds;
     };
-    const auto exact = meshes::exact_signed_distance(body);
+    if (!exact) exact = meshes::exact_signed_distance(body);
     std::unique_ptr<meshes::SignedDistance> grid;
     if (settings.voxel_fraction > 0.0)
-        grid = meshes::grid_signed_distance(body, settings.voxel_fraction * bounding_box(body).sizes().minCoeff(), meshes::GridFill::openvdb);
+        grid = meshes::grid_signed_distance(body, settings.voxel_fraction * bounding_box(body).sizes().minCoeff(), meshes::GridFill::exact_band, exact);
     const meshes::SignedDistance& search = grid ? *grid : *exact;
     MadeClump made;
     made.search_error = search.error_bound();

@@ -1,6 +1,7 @@
 // The whole way from a checked mesh to a clump template: distance, fit, quality, mass properties.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 
@@ -23,7 +24,7 @@ struct ClumpSettings {
     bool measure_surface = true;  ///< fill MadeClump::surface
     double density = 1800.0;      ///< [kg/m³]
     MassSource mass_source = MassSource::target_mesh;
-    double voxel_fraction = 1.0 / 32.0;  ///< voxel of OpenVDB's search grid / smallest extent of the body; 0: the fit asks the exact distance instead
+    double voxel_fraction = 1.0 / 32.0;  ///< voxel of the search grid / smallest extent of the body; 0: the fit asks the exact distance instead
 };
 
 /// Wall-clock seconds of the stages; those of the fit itself stand in FitResult::times.
@@ -42,8 +43,9 @@ struct MadeClump {
     ClumpTimes times;
 };
 
-/// `body` closed and outward oriented (meshes::require_closed_body).
-MadeClump make_clump(const TriangleMesh& body, const ClumpSettings& settings, const ProgressSink& progress = {});
+/// `body` closed and outward oriented (meshes::require_closed_body). `exact`: its exact distance, where that is known already.
+MadeClump make_clump(const TriangleMesh& body, const ClumpSettings& settings, const ProgressSink& progress = {},
+                     std::shared_ptr<const meshes::SignedDistance> exact = nullptr);
 
 /// Any spheres in the mesh frame (of another method, of a file), judged and weighed as make_clump does with its own. Of `settings` the density, mass source,
 /// cost and measure_surface count; times and fit statistics stay empty. `exact`: the exact distance of `body`.

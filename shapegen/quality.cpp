@@ -41,8 +41,14 @@ DistanceFigures figures(const Distances& distances) {
         squares += w * d * d;
         sorted.emplace_back(d, w);
     }
-    std::sort(sorted.begin(), sorted.end());
     result.rms = std::sqrt(squares);
+    // The largest one percent by weight lies within the last twentieth by number, unless weights differ wildly.
+    const auto tail = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() - sorted.size() / 20 - 1);
+    std::nth_element(sorted.begin(), tail, sorted.end());
+    std::sort(tail, sorted.end());
+    double in_tail = 0.0;
+    for (auto it = tail; it != sorted.end(); ++it) in_tail += it->second;
+    if (in_tail <= 0.01) std::sort(sorted.begin(), tail);
     result.max = std::max(sorted.back().first, distances.extreme);
     double beyond = 0.0;
     for (auto it = sorted.rbegin(); it != sorted.rend() && beyond <= 0.01; ++it) {

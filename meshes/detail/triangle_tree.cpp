@@ -96,8 +96,8 @@ double squared_distance_to(const PlaneTriangle& t, const Vec3& p, double limit) 
     return squared + plane_squared_distance(t, d.dot(t.x), d.dot(t.y));
 }
 
-/// Squared distance from p to a box kept as lower and upper corner.
-double box_squared_distance(const std::array<double, 6>& box, const Vec3& p) {
+/// Squared distance from p to a box kept as lower and upper corner. The inner loop of every query: a call would cost as much as the work.
+[[gnu::always_inline]] inline double box_squared_distance(const std::array<double, 6>& box, const Vec3& p) {
     const double dx = std::max(0.0, std::max(box[0] - p.x(), p.x() - box[3]));
     const double dy = std::max(0.0, std::max(box[1] - p.y(), p.y() - box[4]));
     const double dz = std::max(0.0, std::max(box[2] - p.z(), p.z() - box[5]));

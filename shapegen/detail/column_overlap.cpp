@@ -42,8 +42,28 @@ bool owns_edge(const Vec3& a, const Vec3& b) {
     return a.y() != b.y() ? a.y() < b.y() : a.x() > b.x();
 }
 
+// Entries sorted by a small number, side by side in one list.
+template <class Entry>
+struct Bins {
+    std::vector<std::pair<std::uint32_t, Entry>> loose;
+    std::vector<std::uint32_t> start;
+    std::vector<Entry> sorted;
+
+    void add(std::size_t bin, const Entry& entry) { loose.emplace_back(static_cast<std::uint32_t>(bin), entry); }
+    void sort(std::size_t bins) {
+        start.assign(bins + 1, 0);
+        for (const auto& [bin, entry] : loose) ++start[bin + 1];
+        for (std::size_t k = 0; k < bins; ++k) start[k + 1] += start[k];
+        std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
+        sorted.resize(loose.size());
+        for (const auto& [bin, entry] : loose) sorted[next[bin]++] = entry;
+        loose.clear();
+    }
+    std::span<Entry> of(std::size_t bin) { return std::span(sorted).subspan(start[bin], start[bin + 1] - start[bin]); }
+};
+
 // Crossings of the columns x = grid.x(i) with the triangles that span it.
-void collect_crossings(const TriangleMesh& mesh, const Grid& grid, int begin, int end, std::vector<std::vector<Crossing>>& columns) {
+void collect_crossings(const TriangleMesh& mesh, const Grid& grid, int begin, int end, Bins<Crossing>& columns) {
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         Vec3 a = mesh.corner(f, 0), b = mesh.corner(f, 1), c = mesh.corner(f, 2);
         const double area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
@@ -61,13 +81,14 @@ void collect_crossings(const TriangleMesh& mesh, const Grid& grid, int begin, in
                                     (wc > 0.0 || (wc == 0.0 && owns_edge(a, b)));
                 if (!inside) continue;
                 const double z = (wa * a.z() + wb * b.z() + wc * c.z()) / (wa + wb + wc);
-                columns[static_cast<std::size_t>((i - begin) * grid.ny + j)].push_back({z, turn});
+                columns.add(static_cast<std::size_t>((i - begin) * grid.ny + j), {z, turn});
             }
         }
     }
+    columns.sort(static_cast<std::size_t>((end - begin) * grid.ny));
 }
 
-void mesh_runs(std::vector<Crossing>& crossings, std::vector<Run>& runs) {
+void mesh_runs(std::span<Crossing> crossings, std::vector<Run>& runs) {
     runs.clear();
     std::sort(crossings.begin(), crossings.end(), [](const Crossing& p, const Crossing& q) { return p.z != q.z ? p.z < q.z : p.turn > q.turn; });
     int winding = 0;
@@ -79,15 +100,23 @@ void mesh_runs(std::vector<Crossing>& crossings, std::vector<Run>& runs) {
     }
 }
 
-void sphere_runs(std::span<const Sphere> spheres, const std::vector<std::uint32_t>& near, double x, double y, std::vector<Run>& runs) {
-    runs.clear();
-    for (const std::uint32_t i : near) {
-        const Sphere& s = spheres[i];
-        const double left = s.radius * s.radius - (x - s.centre.x()) * (x - s.centre.x()) - (y - s.centre.y()) * (y - s.centre.y());
+// Runs of the spheres in the columns (x, grid.y(j)); those of a column become its union, from below.
+void collect_runs(std::span<const Sphere> spheres, const Grid& grid, double x, Bins<Run>& row) {
+    for (const Sphere& s : spheres) {
+        const double left = s.radius * s.radius - (x - s.centre.x()) * (x - s.centre.x());
         if (left <= 0.0) continue;
-        const double half = std::sqrt(left);
-        runs.push_back({s.centre.z() - half, s.centre.z() + half});
+        const double chord = std::sqrt(left);
+        for (int j = std::max(0, grid.first_column(s.centre.y() - chord, grid.y0)); j < grid.ny && grid.y(j) < s.centre.y() + chord; ++j) {
+            const double square = left - (grid.y(j) - s.centre.y()) * (grid.y(j) - s.centre.y());
+            if (square <= 0.0) continue;
+            const double half = std::sqrt(square);
+            row.add(static_cast<std::size_t>(j), {s.centre.z() - half, s.centre.z() + half});
+        }
     }
+    row.sort(static_cast<std::size_t>(grid.ny));
+}
+
+std::span<Run> merged(std::span<Run> runs) {
     std::sort(runs.begin(), runs.end(), [](const Run& p, const Run& q) { return p.begin < q.begin; });
     std::size_t kept = 0;
     for (const Run& run : runs) {
@@ -97,16 +126,16 @@ void sphere_runs(std::span<const Sphere> spheres, const std::vector<std::uint32_
             runs[kept++] = run;
         }
     }
-    runs.resize(kept);
+    return runs.first(kept);
 }
 
-double length(const std::vector<Run>& runs) {
+double length(std::span<const Run> runs) {
     double sum = 0.0;
     for (const Run& run : runs) sum += run.end - run.begin;
     return sum;
 }
 
-double common_length(const std::vector<Run>& a, const std::vector<Run>& b) {
+double common_length(std::span<const Run> a, std::span<const Run> b) {
     double sum = 0.0;
     for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
         sum += std::max(0.0, std::min(a[i].end, b[j].end) - std::max(a[i].begin, b[j].begin));
@@ -136,19 +165,16 @@ OverlapVolumes column_overlap(const TriangleMesh& mesh, std::span<const Sphere> 
         static_cast<std::size_t>(grid.nx), slab, OverlapVolumes{},
         [&](std::size_t begin, std::size_t end) {
             const int i0 = static_cast<int>(begin), i1 = static_cast<int>(end);
-            std::vector<std::vector<Crossing>> crossings((end - begin) * static_cast<std::size_t>(grid.ny));
+            Bins<Crossing> crossings;
             collect_crossings(mesh, grid, i0, i1, crossings);
             OverlapVolumes volumes;
-            std::vector<Run> mesh_part, sphere_part;
-            std::vector<std::uint32_t> near;
+            std::vector<Run> mesh_part;
+            Bins<Run> row;
             for (int i = i0; i < i1; ++i) {
-                near.clear();
-                for (std::size_t s = 0; s < spheres.size(); ++s) {
-                    if (std::abs(spheres[s].centre.x() - grid.x(i)) < spheres[s].radius) near.push_back(static_cast<std::uint32_t>(s));
-                }
+                collect_runs(spheres, grid, grid.x(i), row);
                 for (int j = 0; j < grid.ny; ++j) {
-                    mesh_runs(crossings[static_cast<std::size_t>((i - i0) * grid.ny + j)], mesh_part);
-                    sphere_runs(spheres, near, grid.x(i), grid.y(j), sphere_part);
+                    mesh_runs(crossings.of(static_cast<std::size_t>((i - i0) * grid.ny + j)), mesh_part);
+                    const std::span<const Run> sphere_part = merged(row.of(static_cast<std::size_t>(j)));
                     const double in_mesh = length(mesh_part), in_spheres = length(sphere_part), common = common_length(mesh_part, sphere_part);
                     volumes.mesh += in_mesh;
                     volumes.spheres += in_spheres;

@@ -79,6 +79,7 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, std::size_t count, std::
     const Box box = bounding_box(mesh);
     const double stratum = samples.area / static_cast<double>(count);
     std::vector<Piece> pieces;
+    pieces.reserve(4 * count + whole.size());  // each is between a quarter and a half of a stratum
     for (const Piece& piece : whole) cut(piece, 0.5 * stratum, box, pieces);
     std::vector<std::pair<std::uint64_t, std::uint32_t>> order(pieces.size());
     for (std::size_t k = 0; k < pieces.size(); ++k) order[k] = {pieces[k].key, static_cast<std::uint32_t>(k)};
