@@ -19,6 +19,7 @@ namespace pelletlab::shapegen {
 namespace {
 
 constexpr std::uint32_t most_spheres = 2000;
+constexpr std::uint32_t first_try = 12;  // the search for very few spheres takes longer than that for some more
 
 void check(const StopCriteria& criteria) {
     const double wanted[] = {criteria.volume_error, criteria.symmetric_difference, criteria.inertia_error, criteria.mean, criteria.rms,
@@ -67,8 +68,8 @@ StoppedFit fit_to_criteria(const TriangleMesh& body, const meshes::SignedDistanc
     check(criteria);
     StoppedFit best;
     bool met = false;
-    std::uint32_t attempts = 0, too_few = 0, enough = 1;
-    for (;; enough = std::min(2 * enough, criteria.most_spheres)) {
+    std::uint32_t attempts = 0, too_few = 0, enough = 0;
+    for (enough = std::min(first_try, criteria.most_spheres);; enough = std::min(2 * enough, criteria.most_spheres)) {
         best = attempt(body, search, exact, settings, enough, progress);
         ++attempts;
         met = meets(best, criteria, body, exact);
@@ -93,14 +94,12 @@ StoppedFit fit_to_criteria(const TriangleMesh& body, const meshes::SignedDistanc
 
 namespace {
 
-// The most spheres that are affordable, `from` being a number to begin with. Nothing when not even that many are.
+// The most spheres that are affordable, at least `least`; `first` is the number to begin with. Nothing when not even the least is.
 std::optional<StoppedFit> most_affordable(const std::function<StoppedFit(std::uint32_t)>& make, const std::function<bool(const StoppedFit&)>& affordable,
-                                          std::uint32_t from) {
-    StoppedFit best = make(from);
-    if (!affordable(best)) return std::nullopt;
-    std::uint32_t good = from, bad = most_spheres + 1;
+                                          std::uint32_t least, std::uint32_t first) {
+    std::optional<StoppedFit> best;
+    std::uint32_t good = least - 1, bad = most_spheres + 1, next = first;
     while (bad - good > 1) {
-        const std::uint32_t next = bad > most_spheres ? std::min(2 * good, most_spheres) : good + (bad - good) / 2;
         StoppedFit made = make(next);
         if (affordable(made)) {
             good = next;
@@ -108,6 +107,7 @@ std::optional<StoppedFit> most_affordable(const std::function<StoppedFit(std::ui
         } else {
             bad = next;
         }
+        next = bad > most_spheres ? std::min(2 * good, most_spheres) : std::max(least, good + (bad - good) / 2);
     }
     return best;
 }
@@ -130,7 +130,7 @@ StoppedFit fit_within_cost(const TriangleMesh& body, const meshes::SignedDistanc
         if (made) made->quality = measure_quality(made->fit.spheres, body, exact);
         return made;
     };
-    std::optional<StoppedFit> best = judge(most_affordable(make, affordable, 1));
+    std::optional<StoppedFit> best = judge(most_affordable(make, affordable, 1, first_try));
     if (!best) {
         best = attempt(body, search, exact, settings, 1, progress);
         best->fit.status = FitStatus::criterion_not_met;
@@ -140,7 +140,8 @@ StoppedFit fit_within_cost(const TriangleMesh& body, const meshes::SignedDistanc
         if (with.press == 0.0) with.press = cost.press > 0.0 ? cost.press : std::cbrt(6.0 * mass.volume / std::numbers::pi) / 300.0;
         for (const std::uint32_t contacts : {6u, 3u}) {
             with.most_contacts = contacts;
-            std::optional<StoppedFit> other = judge(most_affordable(make, affordable, static_cast<std::uint32_t>(best->fit.spheres.size())));
+            const auto least = static_cast<std::uint32_t>(best->fit.spheres.size());
+            std::optional<StoppedFit> other = judge(most_affordable(make, affordable, least, least));
             if (other && other->fit.status != FitStatus::limit_not_met && other->quality.both.rms < best->quality.both.rms) best = std::move(other);
         }
     }

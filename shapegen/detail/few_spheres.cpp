@@ -1,43 +1,105 @@
 #include "shapegen/detail/few_spheres.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/random.hpp"
+#include "shapegen/detail/match_moments.hpp"
 #include "shapegen/detail/medial_balls.hpp"
+#include "shapegen/detail/outer_surface.hpp"
 #include "shapegen/detail/seeding.hpp"
 #include "shapegen/detail/settle.hpp"
+#include "shapegen/detail/union_distance.hpp"
 
 namespace pelletlab::shapegen::detail {
 
 namespace {
 
-constexpr std::uint64_t random_starts = 3;
+constexpr std::uint64_t random_starts = 2;
 constexpr std::uint32_t most_trials = 12;
 constexpr std::size_t most_points = 2500;  // enough to tell which start is best
 
 class FewSearch {
 public:
     FewSearch(const SampleBlocks& coarse, const SampleBlocks& fine, const ModeContext& context, std::size_t points, const RelocationSettings& settings)
-        : coarse_(coarse), fine_(fine), context_(context), points_(points), settings_(settings) {}
+        : coarse_(coarse), fine_(fine), context_(context), points_(std::min(points, most_points)), settings_(settings) {}
 
-    // Keeps what these spheres become if that is better than what is kept.
-    void attempt(std::vector<Sphere> spheres) {
+    FewSpheresResult run(std::size_t count) {
+        for (std::size_t n = 1; n <= count; ++n) {
+            const std::vector<Sphere> fewer = std::move(result_.spheres);
+            const double loss_of_fewer = best_;
+            best_ = std::numeric_limits<double>::infinity();
+            if (n > 1) {
+                const std::vector<Sphere> grown = with_ball_at_largest_gap(fewer);
+                refine(grown);
+                search(grown);
+                refine(with_one_cut_in_two(fewer));
+                for (std::uint64_t k = 0; k < random_starts; ++k) search(random_balls(n, k));
+            }
+            search(seed_by_gaps(coarse_, context_.distance, {n, settings_.min_radius, settings_.largest_radius, settings_.tolerance}));
+            for (int axis = 0; axis < 3; ++axis) {
+                std::vector<Sphere> row = row_along(axis, n);
+                if (!row.empty()) refine(std::move(row));
+            }
+            if (best_ > loss_of_fewer) {  // one more sphere that does not show is no worse
+                result_.spheres = fewer;
+                result_.spheres.push_back(hidden_in(fewer));
+                best_ = loss_of_fewer;
+            }
+        }
+        return std::move(result_);
+    }
+
+private:
+    // Both keep what these spheres become if that is better than what is kept: minimising as they are, or after a search for better places.
+    void refine(std::vector<Sphere> spheres) {
+        throw_if_interrupted();
+        SymmetricLoss loss(fine_, context_.distance, spheres, context_.moments, points_);
+        const MinimiserResult polished = polish(spheres, loss, context_, 30, 1e-3);
+        result_.iterations += polished.iterations;
+        const double loss_now = true_loss(spheres);
+        if (loss_now >= best_) return;
+        best_ = loss_now;
+        result_.spheres = std::move(spheres);
+    }
+
+    // Mean square of both directions by the true distance to the union. The minimiser's |p − c| − r is a bound of the depth inside, far off for few spheres: it
+    // prefers four in a tetrahedron to three in a row, which are better.
+    double true_loss(std::vector<Sphere> spheres) const {
+        match_moments(spheres, context_.moments, {true, false, settings_.min_radius, 0.0});
+        const std::vector<ExposedPart> boundary = union_boundary(spheres);
+        const OuterSurface outer(spheres, 64);
+        const UnionDistance to_union(spheres, boundary, outer);
+        const std::size_t stride = std::max<std::size_t>(1, fine_.size() / points_);
+        double first = 0.0, count = 0.0, area = 0.0;
+        for (std::size_t k = 0; k < fine_.size(); k += stride) {
+            const double d = to_union.value(fine_.points[k]);
+            first += d * d;
+            count += 1.0;
+        }
+        for (std::size_t i = 0; i < spheres.size(); ++i) area += boundary[i].solid_angle * spheres[i].radius * spheres[i].radius;
+        const UnionSamples samples = sample_union(spheres, boundary, outer, std::sqrt(area / static_cast<double>(points_)));
+        double second = 0.0, weight = 0.0;
+        for (std::size_t k = 0; k < samples.points.size(); ++k) {
+            const double d = context_.distance.value(samples.points[k]);
+            second += samples.areas[k] * d * d;
+            weight += samples.areas[k];
+        }
+        return 0.5 * (first / count + second / weight);
+    }
+
+    void search(std::vector<Sphere> spheres) {
         throw_if_interrupted();
         RelocationSettings settings = settings_;
         settings.trials = std::min(settings.trials, most_trials);
         settle_all(coarse_, spheres, settings.slack);
         const RelocationResult moved = relocate(spheres, coarse_, context_.distance, settings);
         result_.iterations += moved.iterations;
+        result_.relocations += moved.accepted;
         settle_all(fine_, spheres, settings.slack);
-        SymmetricLoss loss(fine_, context_.distance, spheres, context_.moments, std::min(points_, most_points));
-        const MinimiserResult polished = polish(spheres, loss, context_, 20, 1e-3);
-        result_.iterations += polished.iterations;
-        if (polished.loss >= best_) return;
-        best_ = polished.loss;
-        result_.spheres = std::move(spheres);
-        result_.relocations = moved.accepted;
+        refine(std::move(spheres));
     }
 
     Sphere ball_at(std::size_t k) const {
@@ -47,13 +109,33 @@ public:
         return {p - r * n, r};
     }
 
-    // The best of one less and the ball at its largest gap.
-    std::vector<Sphere> grown() const {
-        std::vector<Sphere> spheres = result_.spheres;
+    std::vector<Sphere> with_ball_at_largest_gap(std::vector<Sphere> spheres) const {
         GapLoss loss(coarse_, spheres);
         loss.evaluate(pack(spheres), nullptr, nullptr);
         const auto worst = std::max_element(loss.gaps().begin(), loss.gaps().end());
         spheres.push_back(ball_at(static_cast<std::size_t>(worst - loss.gaps().begin())));
+        return spheres;
+    }
+
+    // The sphere with the largest share of the loss becomes two, a little apart along the direction in which its gaps lie.
+    std::vector<Sphere> with_one_cut_in_two(std::vector<Sphere> spheres) const {
+        GapLoss loss(coarse_, spheres);
+        loss.evaluate(pack(spheres), nullptr, nullptr);
+        std::vector<double> share(spheres.size(), 0.0);
+        std::vector<Mat3> spread(spheres.size(), Mat3::Zero());
+        for (std::size_t k = 0; k < coarse_.size(); ++k) {
+            const std::uint32_t owner = loss.nearest()[k];
+            const double square = loss.gaps()[k] * loss.gaps()[k];
+            const Vec3 way = (coarse_.points[k] - spheres[owner].centre).normalized();
+            share[owner] += square;
+            if (loss.gaps()[k] > 0.0) spread[owner] += square * way * way.transpose();
+        }
+        const auto most = static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin());
+        const Vec3 along = Eigen::SelfAdjointEigenSolver<Mat3>(spread[most]).eigenvectors().col(2);
+        Sphere other = spheres[most];
+        spheres[most].centre += 0.15 * other.radius * along;
+        other.centre -= 0.15 * other.radius * along;
+        spheres.push_back(other);
         return spheres;
     }
 
@@ -65,18 +147,32 @@ public:
         return spheres;
     }
 
-    FewSpheresResult run(std::size_t count) {
-        for (std::size_t n = 1; n <= count; ++n) {
-            const std::vector<Sphere> start = n > 1 ? grown() : std::vector<Sphere>{};
-            best_ = std::numeric_limits<double>::infinity();
-            if (n > 1) attempt(start);
-            attempt(seed_by_gaps(coarse_, context_.distance, {n, settings_.min_radius, settings_.largest_radius, settings_.tolerance}));
-            for (std::uint64_t k = 0; k < random_starts && n > 1; ++k) attempt(random_balls(n, k));
+    // Spheres side by side on a principal axis of the body, as large as the body allows, then together so large that they have its volume (Favier et al. 1999;
+    // key favier1999). None when the axis leaves the body there.
+    std::vector<Sphere> row_along(int axis, std::size_t count) const {
+        const Vec3 along = Eigen::SelfAdjointEigenSolver<Mat3>(context_.moments.covariance).eigenvectors().col(axis);
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (const Vec3& p : coarse_.points) {
+            low = std::min(low, along.dot(p));
+            high = std::max(high, along.dot(p));
         }
-        return std::move(result_);
+        std::vector<Sphere> spheres;
+        for (std::size_t k = 0; k < count; ++k) {
+            const Vec3 centre = (low + (high - low) * (static_cast<double>(k) + 0.5) / static_cast<double>(count)) * along;
+            const double depth = -context_.distance.value(centre);
+            if (depth <= 0.0) return {};
+            spheres.push_back({centre, std::max(depth, settings_.min_radius)});
+        }
+        match_moments(spheres, context_.moments, {true, false, settings_.min_radius, 0.0});
+        return spheres;
     }
 
-private:
+    Sphere hidden_in(const std::vector<Sphere>& spheres) const {
+        Sphere inner = *std::max_element(spheres.begin(), spheres.end(), [](const Sphere& a, const Sphere& b) { return a.radius < b.radius; });
+        inner.radius = std::max(0.5 * inner.radius, std::min(settings_.min_radius, 0.99 * inner.radius));
+        return inner;
+    }
+
     void settle_all(const SampleBlocks& samples, std::vector<Sphere>& spheres, double& slack) {
         GapLoss loss(samples, spheres);
         loss.evaluate(pack(spheres), nullptr, nullptr);
@@ -90,7 +186,7 @@ private:
     const ModeContext& context_;
     std::size_t points_;
     RelocationSettings settings_;
-    double best_ = 0.0;
+    double best_ = std::numeric_limits<double>::infinity();
     FewSpheresResult result_;
 };
 

@@ -9,7 +9,7 @@
 
 namespace pelletlab::shapegen::detail {
 
-/// Up to so many spheres the search is this one. Five short searches for each number up to that.
+/// Up to so many spheres the search is this one, from up to nine starts for each number up to that.
 constexpr std::size_t few_spheres = 8;
 
 struct FewSpheresResult {
@@ -17,9 +17,9 @@ struct FewSpheresResult {
     std::uint32_t iterations = 0, relocations = 0;
 };
 
-/// Best of 1, 2, … count spheres by the mean square of both directions: each number starts from the best of one less with the ball added where its gap is
-/// largest, from farthest-point seeds, and from medial balls at random points. So the error hardly ever grows with the number: only the last stage, which comes
-/// later, could make it. `settings.slack` is found for each number.
+/// Best of 1, 2, … count spheres by the mean square of both directions. Each number starts from the best of one less, with the ball added where its gap is
+/// largest or with its worst sphere cut in two; from farthest-point seeds; from medial balls at random points; and from rows along the principal axes. Where
+/// all that is worse than one sphere less, the new one hides inside another: the loss never grows with the number. `settings.slack` is found for each number.
 FewSpheresResult fit_few(std::size_t count, const SampleBlocks& coarse, const SampleBlocks& fine, const ModeContext& context, std::size_t points,
                          const RelocationSettings& settings);
 

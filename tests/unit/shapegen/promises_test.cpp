@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "core/error.hpp"
 #include "core/random.hpp"
@@ -32,7 +33,9 @@ FitResult fitted(const TriangleMesh& body, FitMode mode, std::uint32_t spheres) 
     FitSettings settings;
     settings.mode = mode;
     settings.sphere_count = spheres;
-    return fit_spheres(body, *meshes::exact_signed_distance(body), settings);
+    const std::shared_ptr<const meshes::SignedDistance> exact = meshes::exact_signed_distance(body);
+    const auto grid = meshes::grid_signed_distance(body, bounding_box(body).sizes().minCoeff() / 32.0, meshes::GridFill::exact_band, exact);
+    return fit_spheres(body, *grid, *exact, settings);
 }
 
 TEST(Promises, InsideHoldsOnBodiesThatAreNotConvex) {
@@ -123,30 +126,59 @@ TEST(Promises, NoPlaneTouchesMoreSpheresThanAllowed) {
     EXPECT_THROW(fit_spheres(body, *exact, settings), Error);
 }
 
+double rms_of(const FitResult& fit, const TriangleMesh& body, const meshes::SignedDistance& exact) {
+    return measure_quality(fit.spheres, body, exact).both.rms;
+}
+
 TEST(Promises, MoreSpheresAreBetter) {
-    // A ring needs some eight spheres to be a ring at all; before that no number of them is better than another.
-    for (const auto& [body, first] : {std::pair{trilobe(), 1u}, std::pair{ring(), 8u}}) {
+    for (const TriangleMesh& body : {trilobe(), ring()}) {
+        const auto exact = meshes::exact_signed_distance(body);
         double last = 1.0;
-        for (std::uint32_t n = first; n <= 16; n *= 2) {
-            const double rms = measure_quality(fitted(body, FitMode::mean, n).spheres, body, *meshes::exact_signed_distance(body)).both.rms;
-            EXPECT_LT(rms, 0.95 * last) << n;
+        for (std::uint32_t n = 12; n <= 48; n *= 2) {
+            FitSettings settings;
+            settings.sphere_count = n;
+            const double rms = rms_of(fit_spheres(body, *exact, settings), body, *exact);
+            EXPECT_LT(rms, 0.8 * last) << n;  // N^-0.6 makes it 0.66
+            last = rms;
+        }
+    }
+}
+
+TEST(Promises, OneSphereMoreIsNeverWorse) {
+    // A ring needs some eight spheres to be a ring at all: two in a row can beat the best that three do round the hole. And a cylinder of few facets, where a
+    // row of spheres on the axis is better than what balls at the surface come to.
+    for (const auto& [body, most] : {std::pair{ring(), 3u}, std::pair{meshes::make_cylinder(3.12e-3, 2.96e-3, 24), 4u}}) {
+        const auto exact = meshes::exact_signed_distance(body);
+        double last = 1.0;
+        for (std::uint32_t n = 1; n <= most; ++n) {
+            FitSettings settings;
+            settings.sphere_count = n;
+            const double rms = rms_of(fit_spheres(body, *exact, settings), body, *exact);
+            // The search compares at 2500 points, and at the end centres may be stretched by 0.2 %.
+            EXPECT_LT(rms, 1.005 * last) << n;
             last = rms;
         }
     }
 }
 
 TEST(Promises, FinerGridsAreNeverWorse) {
-    // The search grid only, not the figures. Two percent for the scatter of the search.
+    // The search grid only, not the figures. From seed to seed the rms of this fit scatters by 1.5 % (standard deviation of five), the ratio of two means of
+    // three by 1.2 %: 3 % is two and a half of that.
     const TriangleMesh body = trilobe();
+    const std::shared_ptr<const meshes::SignedDistance> exact = meshes::exact_signed_distance(body);
     double last = 1.0;
     for (const double voxel : {1.0 / 12.0, 1.0 / 24.0, 1.0 / 48.0}) {
-        ClumpSettings settings;
-        settings.fit.sphere_count = 24;
-        settings.voxel_fraction = voxel;
-        settings.measure_surface = false;
-        const double rms = make_clump(body, settings).clump.quality.both.rms;
-        EXPECT_LT(rms, 1.02 * last) << voxel;
-        last = rms;
+        double mean = 0.0;
+        for (const std::uint64_t seed : {1u, 2u, 3u}) {
+            ClumpSettings settings;
+            settings.fit.sphere_count = 24;
+            settings.fit.seed = seed;
+            settings.voxel_fraction = voxel;
+            settings.measure_surface = false;
+            mean += make_clump(body, settings, {}, exact).clump.quality.both.rms / 3.0;
+        }
+        EXPECT_LT(mean, 1.03 * last) << voxel;
+        last = mean;
     }
 }
 
