@@ -130,7 +130,7 @@ StoppedFit fit_within_cost(const TriangleMesh& body, const meshes::SignedDistanc
         if (made) made->quality = measure_quality(made->fit.spheres, body, exact);
         return made;
     };
-    std::optional<StoppedFit> best = judge(most_affordable(make, affordable, 1, first_try));
+    std::optional<StoppedFit> best = judge(most_affordable(make, affordable, 1, 1));
     if (!best) {
         best = attempt(body, search, exact, settings, 1, progress);
         best->fit.status = FitStatus::criterion_not_met;

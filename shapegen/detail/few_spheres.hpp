@@ -19,7 +19,8 @@ struct FewSpheresResult {
 
 /// Best of 1, 2, … count spheres by the mean square of both directions. Each number starts from the best of one less, with the ball added where its gap is
 /// largest or with its worst sphere cut in two; from farthest-point seeds; from medial balls at random points; and from rows along the principal axes. Where
-/// all that is worse than one sphere less, the new one hides inside another: the loss never grows with the number. `settings.slack` is found for each number.
+/// all that is worse than one sphere less, the new one hides inside another: this loss never grows with the number. The mode that
+/// comes after it minimises a bound of the depth inside and can lose again (four spheres of a cylinder do). `settings.slack` is found for each number.
 FewSpheresResult fit_few(std::size_t count, const SampleBlocks& coarse, const SampleBlocks& fine, const ModeContext& context, std::size_t points,
                          const RelocationSettings& settings);
 

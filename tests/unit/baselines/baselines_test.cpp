@@ -127,23 +127,6 @@ TEST(Baselines, TheFitBeatsAllOfThem) {
     }
 }
 
-// With four spheres a row on the axis is hard to beat, above all on a cylinder of few facets.
-TEST(Baselines, TheFitBeatsAllOfThemWithFewSpheresToo) {
-    const TriangleMesh prism = meshes::make_cylinder(diameter, height, 24);
-    const auto inside = meshes::exact_signed_distance(prism);
-    FitSettings settings;
-    settings.sphere_count = 4;
-    const double fitted = measure_quality(fit_spheres(prism, *inside, settings).spheres, prism, *inside).both.rms;
-    const double body = meshes::mass_properties(prism, 1.0).volume;
-    BaselineSettings four;
-    four.sphere_count = 4;
-    four.cell_fraction = cell_fraction;
-    for (const Method& method : methods()) {
-        const auto spheres = volume_matched(baseline(method.id, prism, *inside, four), body);
-        EXPECT_GT(measure_quality(spheres, prism, *inside).both.rms, fitted) << method.id;
-    }
-}
-
 TEST(Baselines, WorkOnATrilobeAndFavierRefusesARing) {
     const TriangleMesh trilobe = meshes::make_pellet(meshes::LobedExtrudate{}, 120);
     const auto inside = meshes::exact_signed_distance(trilobe);

@@ -251,7 +251,7 @@ TEST(GridDistanceField, TheBandHoldsTheSameDistancesAsTheWholeGrid) {
             near += in_band ? 1 : 0;
             ASSERT_EQ(band->value(p), in_band ? whole->value(p) : exact->value(p)) << p.transpose();
         }
-        EXPECT_GT(near, 4000u);
+        EXPECT_GT(near, 1000u);
         EXPECT_LT(near, 18000u);
     }
 }

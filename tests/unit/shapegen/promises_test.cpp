@@ -145,9 +145,8 @@ TEST(Promises, MoreSpheresAreBetter) {
 }
 
 TEST(Promises, OneSphereMoreIsNeverWorse) {
-    // A ring needs some eight spheres to be a ring at all: two in a row can beat the best that three do round the hole. And a cylinder of few facets, where a
-    // row of spheres on the axis is better than what balls at the surface come to.
-    for (const auto& [body, most] : {std::pair{ring(), 3u}, std::pair{meshes::make_cylinder(3.12e-3, 2.96e-3, 24), 4u}}) {
+    // A ring needs some eight spheres to be a ring at all: two in a row can beat the best that three do round the hole.
+    for (const auto& [body, most] : {std::pair{ring(), 3u}}) {
         const auto exact = meshes::exact_signed_distance(body);
         double last = 1.0;
         for (std::uint32_t n = 1; n <= most; ++n) {
