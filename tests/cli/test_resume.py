@@ -161,8 +161,8 @@ class RunsThatGoOn(PelletlabTest):
             self.skipTest("no right to mount a small file system")
         try:
             file = self.new_case()
-            setting = [*FILL, "--set", "output.frame_interval=0.0001 s"]
-            result = self.run_program("fill", file, *setting, *OFTEN, "-o", "out")
+            setting = [*FILL, "--set", "output.frame_interval=0.0005 s"]  # some fifty frames fit, and many checkpoints are written before the last of them
+            result = self.run_program("fill", file, *setting, "--checkpoint-every", "0.003 s", "-o", "out")
             self.assertEqual(result.code, BAD_INPUT, result)
             self.assertEqual(result.err.count("error:"), 1, result)
             self.assertRegex(result.err.lower(), "no space|full", result)
