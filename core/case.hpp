@@ -57,6 +57,7 @@ struct PhysicsChoice {
     double liquid_contact_angle = 0.0;        ///< [rad]
     double liquid_bridge_volume = 1e-12;      ///< [m³]
     double air_density = 0.0;                 ///< [kg/m³]; 0: no drag
+    double air_viscosity = 1.8e-5;            ///< [Pa s]
     Vec3 attraction = Vec3::Zero();           ///< [m/s²], a uniform field beside gravity
     double vibration_frequency = 0.0;         ///< [Hz], of all walls; 0: none
     Vec3 vibration_amplitude = Vec3::Zero();  ///< [m]
@@ -80,6 +81,7 @@ struct TubeRig {
     std::string mesh_file;      ///< a user's own vessel instead of the maker's
     std::string mesh_unit;
     std::string material = "vessel";
+    std::string surface = "facets";  ///< «exact»: shell and floor (end plates) in closed form; the facets are for pictures only
     bool operator==(const TubeRig&) const = default;
 };
 
@@ -96,6 +98,7 @@ struct DrumRig {
     std::string mesh_file;
     std::string mesh_unit;
     std::string material = "vessel";
+    std::string surface = "facets";  ///< «exact»: shell and end plates in closed form; the facets are for pictures only
     bool operator==(const DrumRig&) const = default;
 };
 
@@ -139,6 +142,20 @@ struct TesterRig {
     std::string mesh_unit;         ///< of both
     std::string material = "vessel";
     bool operator==(const TesterRig&) const = default;
+};
+
+/// A wall beside those of the rig, in closed form: [walls.<name>]. World frame; both sides act.
+struct ExtraWall {
+    std::string shape = "plane";  ///< plane, disc, cylinder, cone or box
+    Vec3 point = Vec3::Zero();    ///< [m], of the plane; centre of disc and box; centre of the end at which cylinder and cone begin
+    Vec3 axis = Vec3::UnitZ();    ///< normal of plane and disc, axis of cylinder and cone; of any length
+    double radius = 0.0;          ///< [m], of disc and cylinder; of the cone at `point`
+    double far_radius = 0.0;      ///< [m], of the cone at its other end
+    double length = 0.0;          ///< [m], of cylinder and cone
+    Vec3 size = Vec3::Zero();     ///< [m], full edges of the box, along the world's axes
+    std::string material = "vessel";
+    bool turns = false;  ///< with the drum or tester
+    bool operator==(const ExtraWall&) const = default;
 };
 
 struct Insertion {
@@ -188,6 +205,7 @@ struct Case {
     PelletChoice pellet;
     std::map<std::string, Material> materials;          ///< by name
     std::map<std::string, ContactParameters> contacts;  ///< by «pellet-pellet», «pellet-vessel», «pellet-<wall name>»
+    std::map<std::string, ExtraWall> walls;             ///< by name
     PhysicsChoice physics;
     TubeRig tube;
     DrumRig drum;
@@ -207,7 +225,7 @@ inline bool has_funnel(const Case& c) {
     return (c.rig == Rig::pile && c.pile.release == "funnel") || (c.rig == Rig::tube && !c.tube.lying && c.insertion.way == "funnel");
 }
 
-/// Names of the case's walls: a contact row «pellet-<wall name>» goes before «pellet-<material of the wall>».
+/// Names of the rig's own walls, beside which a case may have others (Case::walls): a contact row «pellet-<wall name>» goes before «pellet-<material of the wall>».
 inline std::vector<std::string> wall_names(const Case& c) {
     std::vector<std::string> names;
     switch (c.rig) {

@@ -31,6 +31,7 @@ inline constexpr Dimension force{1, 1, -2, 0};
 inline constexpr Dimension energy{2, 1, -2, 0};
 inline constexpr Dimension surface_energy{0, 1, -2, 0};
 inline constexpr Dimension frequency{0, 0, -1, 0};
+inline constexpr Dimension viscosity{-1, 1, -1, 0};
 }  // namespace dimension
 
 /// Value in SI units of a text «number unit»: blanks between them are optional, the number may be 1e-5, a unit is a product of

@@ -12,6 +12,7 @@
 #include "meshes/makers.hpp"
 #include "meshes/read_mesh.hpp"
 #include "observables/tester.hpp"
+#include "packing/extra_walls.hpp"
 #include "packing/lying_vessel.hpp"
 #include "packing/run_figures.hpp"
 #include "packing/stage.hpp"
@@ -64,10 +65,11 @@ std::vector<solver::WallDefinition> tester_walls(const Case& c, const packing::I
     return walls;
 }
 
-void start_rotation(solver::Simulation& simulation, double speed) {
+void start_rotation(solver::Simulation& simulation, const Case& c) {
     for (std::size_t wall = 0; wall < simulation.definition().walls.size(); ++wall) {
+        if (!packing::turns_with_vessel(c, simulation.definition().walls[wall].name)) continue;
         solver::WallMotion motion = simulation.definition().walls[wall].motion;  // keeps a vibration
-        motion.axis = Vec3::UnitY(), motion.rotation_speed = speed;
+        motion.axis = Vec3::UnitY(), motion.rotation_speed = c.tester.speed;
         simulation.set_wall_motion(wall, motion);
     }
 }
@@ -126,6 +128,7 @@ packing::RunResult run_tester(const Case& c, const packing::RunInputs& inputs, c
     const RigidTemplate& pellet = definition.templates.front();
     const packing::InsertionRegion region = packing::lens_region(pellet, c.pellet.count, c.insertion.packing_fraction, c.tester.diameter, c.tester.length);
     definition.walls = tester_walls(c, region);
+    packing::add_walls_of_case(c, definition.walls);
     solver::Simulation simulation(std::move(definition));
     if (!keeping.from)
         simulation.add_bodies(
@@ -151,7 +154,7 @@ packing::RunResult run_tester(const Case& c, const packing::RunInputs& inputs, c
     spin_up.duration = c.time.spin_up;
     spin_up.frame_interval = sparse * c.output.frame_interval;
     spin_up.watch_interval = watch_interval;
-    if (!course.is_catching_up()) start_rotation(simulation, c.tester.speed);
+    if (!course.is_catching_up()) start_rotation(simulation, c);
     course.run(spin_up);
 
     packing::Stage measure;

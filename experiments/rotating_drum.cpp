@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "observables/drum.hpp"
 #include "observables/statistics.hpp"
+#include "packing/extra_walls.hpp"
 #include "packing/insertion.hpp"
 #include "packing/lying_vessel.hpp"
 #include "packing/run_figures.hpp"
@@ -21,21 +22,21 @@ constexpr double watch_interval = 0.001;  // [s] between looks at torque and ove
 constexpr std::size_t torque_groups = 20;
 constexpr double sparse = 10.0;  // frames before the measurement are stored at this many times frame_interval
 
-void start_rotation(solver::Simulation& simulation, const DrumRig& drum) {
+void start_rotation(solver::Simulation& simulation, const Case& c) {
     for (std::size_t wall = 0; wall < simulation.definition().walls.size(); ++wall)
-        if (drum.end_plates_rotate || simulation.definition().walls[wall].name == "shell") {
+        if (packing::turns_with_vessel(c, simulation.definition().walls[wall].name)) {
             solver::WallMotion motion = simulation.definition().walls[wall].motion;  // keeps a vibration
-            motion.axis = Vec3::UnitY(), motion.rotation_speed = drum.speed;
+            motion.axis = Vec3::UnitY(), motion.rotation_speed = c.drum.speed;
             simulation.set_wall_motion(wall, motion);
         }
 }
 
 /// Torque about the axis that keeps the drum turning, against what the pellets exert on the turning walls; positive in the sense of rotation [N m].
-double drive_torque(const solver::Simulation& simulation, const DrumRig& drum) {
+double drive_torque(const solver::Simulation& simulation, const Case& c) {
     double torque = 0.0;
     for (std::size_t wall = 0; wall < simulation.definition().walls.size(); ++wall)
-        if (drum.end_plates_rotate || simulation.definition().walls[wall].name == "shell") torque -= simulation.wall_loads()[wall].torque.y();
-    return drum.speed < 0.0 ? -torque : torque;
+        if (packing::turns_with_vessel(c, simulation.definition().walls[wall].name)) torque -= simulation.wall_loads()[wall].torque.y();
+    return c.drum.speed < 0.0 ? -torque : torque;
 }
 
 /// Mean of the samples, with the error from the means of 20 stretches of time.
@@ -63,8 +64,10 @@ std::uint32_t pellet_count(const DrumRig& drum, double pellet_volume) {
 packing::RunResult run_drum(const Case& c, const packing::RunInputs& inputs, const std::function<packing::FrameSink(const TrajectoryHeader&)>& open_sink,
                             const ProgressSink& progress, const packing::RunKeeping& keeping) {
     if (c.rig != Rig::drum) throw bad_input("the case '" + c.name + "' is not a drum", "set rig = \"drum\"");
-    solver::Simulation simulation(packing::define_simulation(
-        c, inputs, packing::lying_walls(c, {"drum", c.drum.diameter, c.drum.length, c.drum.facets, c.drum.mesh_file, c.drum.mesh_unit, c.drum.material})));
+    std::vector<solver::WallDefinition> walls =
+        packing::lying_walls(c, {"drum", c.drum.diameter, c.drum.length, c.drum.facets, c.drum.mesh_file, c.drum.mesh_unit, c.drum.material});
+    packing::add_walls_of_case(c, walls);
+    solver::Simulation simulation(packing::define_simulation(c, inputs, std::move(walls)));
     const RigidTemplate& pellet = simulation.definition().templates.front();
     const std::uint32_t count = c.pellet.count > 0 ? c.pellet.count : pellet_count(c.drum, pellet.mass_properties.volume);
     if (!keeping.from)
@@ -88,7 +91,7 @@ packing::RunResult run_drum(const Case& c, const packing::RunInputs& inputs, con
     const double sparse_interval = sparse * c.output.frame_interval;
     packing::settle(course, simulation, c, sparse_interval);
 
-    if (!course.is_catching_up()) start_rotation(simulation, c.drum);
+    if (!course.is_catching_up()) start_rotation(simulation, c);
     packing::Stage spin_up;
     spin_up.name = "spinning up";
     spin_up.duration = c.time.spin_up;
@@ -104,7 +107,7 @@ packing::RunResult run_drum(const Case& c, const packing::RunInputs& inputs, con
     // What the stage remembers: its first time, its first frame, and the torques.
     measure.memory = {simulation.time(), static_cast<double>(course.frames_stored())};
     measure.watch = [&](const solver::Simulation& now, std::vector<double>& memory) {
-        memory.push_back(drive_torque(now, c.drum));
+        memory.push_back(drive_torque(now, c));
         return false;
     };
     if (course.is_catching_up()) {

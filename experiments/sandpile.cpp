@@ -8,6 +8,7 @@
 #include "meshes/makers.hpp"
 #include "meshes/read_mesh.hpp"
 #include "observables/pile.hpp"
+#include "packing/extra_walls.hpp"
 #include "packing/funnel.hpp"
 #include "packing/rest.hpp"
 #include "packing/run_figures.hpp"
@@ -131,6 +132,7 @@ packing::RunResult run_pile(const Case& c, const packing::RunInputs& inputs, con
     solver::SimulationDefinition definition = packing::define_simulation(c, inputs, {});
     Rig rig = make_rig(c, definition.templates.front());
     definition.walls = std::move(rig.walls);
+    packing::add_walls_of_case(c, definition.walls);
     solver::Simulation simulation(std::move(definition));
     if (!keeping.from)
         simulation.add_bodies(

@@ -27,17 +27,19 @@ void check_material(const Case& c, const std::string& key, const std::string& na
                     suggestion(name, defined_materials(c)) + "add a table [materials." + toml_key(name) + "]", places.of({key}));
 }
 
-/// A row's name is «pellet-» and then «pellet», a wall of the rig or a material.
+/// A row's name is «pellet-» and then «pellet», a wall or a material.
 void check_contact_name(const Case& c, const std::string& name, const CasePlaces& places) {
-    std::vector<std::string> partners = wall_names(c);
+    std::vector<std::string> walls_of_case = wall_names(c);
+    for (const auto& [wall, ignored] : c.walls) walls_of_case.push_back(wall);
+    std::vector<std::string> partners = walls_of_case;
     partners.emplace_back("pellet");
     for (const std::string& material : defined_materials(c)) partners.push_back(material);
     std::vector<std::string> rows;
     for (const std::string& partner : partners) rows.push_back("pellet-" + partner);
     if (default_contact(name) != nullptr || std::find(rows.begin(), rows.end(), name) != rows.end()) return;
     std::string walls;
-    for (const std::string& wall : wall_names(c)) walls += ", '" + wall + "'";
-    throw bad_input("contacts." + toml_key(name) + ": its partner is no wall of the rig and no defined material",
+    for (const std::string& wall : walls_of_case) walls += ", '" + wall + "'";
+    throw bad_input("contacts." + toml_key(name) + ": its partner is no wall and no defined material",
                     suggestion(name, rows) + "name it pellet-<partner>, the partner 'pellet'" + walls + " or a material",
                     places.of({"contacts." + toml_key(name)}));
 }
@@ -56,6 +58,31 @@ void check_contacts(const Case& c, const CasePlaces& places) {
     }
 }
 
+/// A wall of the case says all that its shape needs.
+void check_extra_wall(const Case& c, const std::string& name, const ExtraWall& w, const CasePlaces& places) {
+    const std::string table = "walls." + toml_key(name);
+    const auto need = [&](bool good, const std::string& key, const std::string& what, const std::string& remedy) {
+        if (!good) throw bad_input(table + ": " + what, remedy, places.of({table + "." + key, table}));
+    };
+    const std::vector<std::string> taken = wall_names(c);
+    need(std::find(taken.begin(), taken.end(), name) == taken.end(), "", "the rig itself has a wall of this name", "choose another name");
+    if (w.shape != "box") need(w.axis.norm() > 0.0, "axis", "its axis has no direction", "write for instance axis = [0, 0, 1]");
+    if (w.shape == "disc" || w.shape == "cylinder") need(w.radius > 0.0, "radius", "a " + w.shape + " needs a radius", "write for instance radius = \"10 mm\"");
+    if (w.shape == "cone") need(w.radius + w.far_radius > 0.0, "radius", "a cone needs a radius at one of its ends", "write for instance radius = \"10 mm\"");
+    if (w.shape == "cylinder" || w.shape == "cone") need(w.length > 0.0, "length", "a " + w.shape + " needs a length", "write for instance length = \"10 mm\"");
+    if (w.shape == "box") need(w.size.minCoeff() > 0.0, "size", "a box needs three edges", "write for instance size = [\"10 mm\", \"20 mm\", \"5 mm\"]");
+    need(!w.turns || c.rig == Rig::drum || c.rig == Rig::tester, "turns", "only a drum or a tester turns", "remove turns, or write turns = false");
+    check_material(c, table + ".material", w.material, places);
+    need(c.contacts.contains("pellet-" + name) || c.contacts.contains("pellet-" + w.material), "material", "it has no contact row with the pellets",
+         "add [contacts." + toml_key("pellet-" + name) + "] or [contacts." + toml_key("pellet-" + w.material) + "]");
+}
+
+void check_surface(const std::string& rig, const std::string& surface, const std::string& mesh_file, const CasePlaces& places) {
+    if (surface != "exact" || mesh_file.empty()) return;
+    throw bad_input(rig + ".surface = \"exact\" stands for the round " + rig + " of its diameter, and " + rig + ".mesh_file asks for another vessel",
+                    "remove one of the two", places.of({rig + ".surface", rig + ".mesh_file"}));
+}
+
 void check_mesh(const std::string& rig, const std::string& mesh_file, const std::string& mesh_unit, const CasePlaces& places) {
     if (mesh_file.empty() && mesh_unit.empty()) return;
     if (mesh_unit.empty())
@@ -70,6 +97,7 @@ void check_mesh(const std::string& rig, const std::string& mesh_file, const std:
 
 void check_tube(const Case& c, const CasePlaces& places) {
     check_mesh("tube", c.tube.mesh_file, c.tube.mesh_unit, places);
+    check_surface("tube", c.tube.surface, c.tube.mesh_file, places);
     if (c.tube.lying && !(c.tube.height > 0.0))
         throw bad_input("a lying tube needs its length", "write tube.height = \"90 mm\"", places.of({"tube.height", "tube.lying"}));
     if (c.tube.lying && c.insertion.way != "cloud")
@@ -109,10 +137,14 @@ void check_tester(const Case& c, const CasePlaces& places) {
 
 void check_rig(const Case& c, const CasePlaces& places) {
     if (c.rig == Rig::tube) check_tube(c, places);
-    if (c.rig == Rig::drum) check_mesh("drum", c.drum.mesh_file, c.drum.mesh_unit, places);
+    if (c.rig == Rig::drum) {
+        check_mesh("drum", c.drum.mesh_file, c.drum.mesh_unit, places);
+        check_surface("drum", c.drum.surface, c.drum.mesh_file, places);
+    }
     if (c.rig == Rig::pile) check_mesh("pile", c.pile.mesh_file, c.pile.mesh_unit, places);
     if (c.rig == Rig::tester) check_tester(c, places);
     if (has_funnel(c)) check_funnel(c, places);
+    for (const auto& [name, wall] : c.walls) check_extra_wall(c, name, wall, places);
 }
 
 void check_times(const Case& c, const CasePlaces& places) {
@@ -147,9 +179,11 @@ Place CasePlaces::of(const std::vector<std::string>& paths) const {
 }
 
 void add_default_materials(Case& c) {
-    for (const std::string& name : {c.pellet.material, wall_material(c)})
+    std::vector<std::string> materials = {c.pellet.material, wall_material(c)}, rows = {"pellet-pellet", "pellet-" + wall_material(c)};
+    for (const auto& [ignored, wall] : c.walls) materials.push_back(wall.material), rows.push_back("pellet-" + wall.material);
+    for (const std::string& name : materials)
         if (const Material* material = default_material(name)) c.materials.try_emplace(name, *material);
-    for (const std::string& name : {std::string("pellet-pellet"), "pellet-" + wall_material(c)})
+    for (const std::string& name : rows)
         if (const ContactParameters* contact = default_contact(name)) c.contacts.try_emplace(name, *contact);
 }
 

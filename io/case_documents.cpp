@@ -51,7 +51,7 @@ Json value_schema(const CaseKey& key) {
         case KeyKind::vector3d:
             break;
     }
-    return {{"type", "array"}, {"items", quantity_schema(key)}, {"minItems", 3}, {"maxItems", 3}};
+    return {{"type", "array"}, {"items", number_schema(key)}, {"minItems", 3}, {"maxItems", 3}};
 }
 
 std::string description(const CaseKey& key) {
@@ -61,9 +61,16 @@ std::string description(const CaseKey& key) {
     return text;
 }
 
-/// Default of the key as it stands in a file; for materials and contacts those of the named ones, those of other rigs where they differ.
+/// Default of the key as it stands in a file; for materials and contacts those of the named ones, those of other rigs where they differ; empty where a wall must
+/// state it.
 std::string default_words(const CaseKey& key) {
     const Case tube = default_case(Rig::tube);
+    if (key.path[0] == "walls") {
+        if (!key.optional) return "";
+        Case example = tube;
+        example.walls["one"] = {};
+        return value_as_toml(key, key.get(example, "one"));
+    }
     if (key.path.size() == 3) {
         std::string words;
         for (const std::string& name : names_in(tube, {{key.path[0], "*"}, ""}))
@@ -83,7 +90,8 @@ Json section_schema(const CaseSection& section) {
     Json properties = Json::object();
     for (const CaseKey* key : keys_of(section)) {
         Json schema = value_schema(*key);
-        schema["description"] = description(*key) + " Default: " + default_words(*key) + ".";
+        const std::string words = default_words(*key);
+        schema["description"] = description(*key) + (words.empty() ? "" : " Default: " + words + ".");
         if (key->has_dimension()) schema["x-dimension"] = dimension_name(key->dimension);
         properties[key->leaf()] = schema;
     }
@@ -108,7 +116,7 @@ std::string type_words(const CaseKey& key) {
         case KeyKind::vector3d:
             break;
     }
-    return "three × " + dimension_name(key.dimension);
+    return "three × " + (key.has_dimension() ? dimension_name(key.dimension) : std::string("number"));
 }
 
 }  // namespace
@@ -139,8 +147,11 @@ std::string case_reference_markdown() {
     for (const CaseSection& section : case_sections()) {
         text += "\n## " + (section.path.empty() ? std::string("Top of the file") : "[" + path_text(section.path) + "]") + "\n\n" + section.doc + "\n\n";
         text += "| key | value | default | allowed | meaning |\n| --- | --- | --- | --- | --- |\n";
-        for (const CaseKey* key : keys_of(section))
-            text += "| `" + key->leaf() + "` | " + type_words(*key) + " | `" + default_words(*key) + "` | " + range_text(*key) + " | " + key->doc + " |\n";
+        for (const CaseKey* key : keys_of(section)) {
+            const std::string words = default_words(*key);
+            text += "| `" + key->leaf() + "` | " + type_words(*key) + " | " + (words.empty() ? "none" : "`" + words + "`") + " | " + range_text(*key) + " | " +
+                    key->doc + " |\n";
+        }
     }
     return text;
 }

@@ -158,18 +158,21 @@ private:
         if (section == "materials") {
             const Material* known = default_material(name);
             c.materials.try_emplace(name, known != nullptr ? *known : Material{});
+        } else if (section == "walls") {
+            c.walls.try_emplace(name);
         } else {
             const ContactParameters* known = default_contact(name);
             c.contacts.try_emplace(name, known != nullptr ? *known : ContactParameters{});
         }
     }
 
-    /// A material or contact without a default of its own states all its keys.
+    /// A material, contact or wall without a default of its own states all its keys.
     void require_all_keys(const Case& c) const {
         for (const CaseSection& section : case_sections()) {
             if (section.path.size() < 2) continue;
             for (const std::string& name : names_in(c, section)) {
-                const bool has_default = section.path[0] == "materials" ? default_material(name) != nullptr : default_contact(name) != nullptr;
+                const bool has_default = (section.path[0] == "materials" && default_material(name) != nullptr) ||
+                                         (section.path[0] == "contacts" && default_contact(name) != nullptr);
                 if (has_default) continue;
                 for (const CaseKey* key : keys_of(section)) {
                     const std::string table = written_path({section.path[0], name});

@@ -63,7 +63,8 @@ void add_physics(const Add& add) {
     add(in(volume, "mm^3",
            within(above(0), key("physics.liquid_bridge_volume", PELLETLAB_MEMBER(c.physics.liquid_bridge_volume), "Liquid in every capillary bridge."))));
     add(in(density, "kg/m^3",
-           within(from(0), key("physics.air_density", PELLETLAB_MEMBER(c.physics.air_density), "Still air that drags at the pellets; 0: none."))));
+           within(from(0), key("physics.air_density", PELLETLAB_MEMBER(c.physics.air_density), "Still air that drags at the pellets (Schiller & Naumann, on the sphere of the pellet's volume); 0: none."))));
+    add(in(viscosity, "Pa*s", within(above(0), key("physics.air_viscosity", PELLETLAB_MEMBER(c.physics.air_viscosity), "Dynamic viscosity of that air."))));
     add(in(acceleration, "m/s^2", key("physics.attraction", PELLETLAB_MEMBER(c.physics.attraction), "Uniform attraction beside gravity, per mass.")));
     add(in(frequency, "Hz",
            within(from(0), key("physics.vibration_frequency", PELLETLAB_MEMBER(c.physics.vibration_frequency), "Vibration of all walls; 0: none."))));
@@ -111,6 +112,8 @@ std::vector<CaseKey> make_keys() {
     add(key("tube.mesh_file", PELLETLAB_MEMBER(c.tube.mesh_file), "Mesh of shell and floor to use instead of the round tube; empty: none."));
     add(key("tube.mesh_unit", PELLETLAB_MEMBER(c.tube.mesh_unit), "Length unit of mesh_file (an STL file does not tell): mm, m, in and so on."));
     add(key("tube.material", PELLETLAB_MEMBER(c.tube.material), "Material of shell and floor: a table [materials.<name>]."));
+    add(word({"facets", "exact"}, key("tube.surface", PELLETLAB_MEMBER(c.tube.surface),
+                                      "Pellets touch the facets, or the exact cylinder with its floor or end plates that they stand for.")));
 
     add(in(length, "mm", within(above(0), key("drum.diameter", PELLETLAB_MEMBER(c.drum.diameter), "Inner diameter."))));
     add(in(length, "mm", within(above(0), key("drum.length", PELLETLAB_MEMBER(c.drum.length), "Inner length between the end plates."))));
@@ -125,8 +128,11 @@ std::vector<CaseKey> make_keys() {
     add(key("drum.mesh_file", PELLETLAB_MEMBER(c.drum.mesh_file), "Mesh to use instead of the round drum; empty: none."));
     add(key("drum.mesh_unit", PELLETLAB_MEMBER(c.drum.mesh_unit), "Length unit of mesh_file (an STL file does not tell): mm, m, in and so on."));
     add(key("drum.material", PELLETLAB_MEMBER(c.drum.material), "Material of shell and end plates: a table [materials.<name>]."));
+    add(word({"facets", "exact"},
+             key("drum.surface", PELLETLAB_MEMBER(c.drum.surface), "Pellets touch the facets, or the exact cylinder and end plates that they stand for.")));
 
     for (CaseKey& k : keys_of_piles_and_testers()) add(std::move(k));
+    for (CaseKey& k : keys_of_extra_walls()) add(std::move(k));
 
     add(word({"cloud", "sieve", "batches", "funnel"},
              key("insertion.way", PELLETLAB_MEMBER(c.insertion.way),
@@ -190,6 +196,10 @@ std::vector<CaseSection> make_sections() {
         {{"pile"}, "Pile on a plate: z = 0, poured about the z axis."},
         {{"funnel"}, "Funnel with a shutter, about the z axis: of a pile with release = \"funnel\" and of a tube with insertion.way = \"funnel\"."},
         {{"tester"}, "Attrition tester: a drum (axis y, centre in the origin) with one baffle, after ASTM D4058."},
+        {{"walls", "*"},
+         "A wall of that name beside those of the rig, exact in closed form: a cone on a tube's floor, a lifter in a drum. Its contact row is "
+         "`pellet-<name>`, else `pellet-<material>`. The loose cloud of a tube starts above these walls (planes that stand upright aside); elsewhere no pellet "
+         "may overlap them at the start, nor be shut in a box, cylinder or cone unless that is meant."},
         {{"insertion"}, "How pellets come into the rig."},
         {{"time"}, "Time step and phases of the run."},
         {{"output"}, "What a run writes."},
@@ -233,6 +243,8 @@ std::vector<std::string> names_in(const Case& c, const CaseSection& section) {
     if (section.path.size() < 2) return {""};
     if (section.path[0] == "materials")
         for (const auto& [name, ignored] : c.materials) names.push_back(name);
+    else if (section.path[0] == "walls")
+        for (const auto& [name, ignored] : c.walls) names.push_back(name);
     else
         for (const auto& [name, ignored] : c.contacts) names.push_back(name);
     return names;

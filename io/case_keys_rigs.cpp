@@ -1,4 +1,4 @@
-// Part of the table of case keys: pile, funnel and attrition tester.
+// Part of the table of case keys: pile, funnel and attrition tester; walls beside those of the rig.
 #include "io/detail/case_key_makers.hpp"
 
 namespace pelletlab::io::detail {
@@ -48,6 +48,28 @@ std::vector<CaseKey> keys_of_piles_and_testers() {
     add(key("tester.baffle_mesh_file", PELLETLAB_MEMBER(c.tester.baffle_mesh_file), "Mesh of the baffle, at baffle_start, instead of the plate; empty: none."));
     add(key("tester.mesh_unit", PELLETLAB_MEMBER(c.tester.mesh_unit), "Length unit of both meshes (an STL file does not tell): mm, m, in and so on."));
     add(key("tester.material", PELLETLAB_MEMBER(c.tester.material), "Material of shell, end plates and baffle: a table [materials.<name>]."));
+    return keys;
+}
+
+/// Walls in closed form beside those of the rig.
+std::vector<CaseKey> keys_of_extra_walls() {
+    using namespace dimension;
+    std::vector<CaseKey> keys;
+    const auto add = [&keys](CaseKey k) { keys.push_back(std::move(k)); };
+    add(word({"plane", "disc", "cylinder", "cone", "box"}, key("walls.*.shape", PELLETLAB_MEMBER(c.walls.at(name).shape), "What it is; both of its sides act.")));
+    add(in(length, "mm",
+           key("walls.*.point", PELLETLAB_MEMBER(c.walls.at(name).point),
+               "A point of the plane; the centre of disc and box; the centre of the end at which cylinder and cone begin.")));
+    add(optional(key("walls.*.axis", PELLETLAB_MEMBER(c.walls.at(name).axis), "Normal of plane and disc, axis of cylinder and cone; of any length.")));
+    add(optional(
+        in(length, "mm",
+           within(from(0), key("walls.*.radius", PELLETLAB_MEMBER(c.walls.at(name).radius), "Of disc and cylinder, and of the cone where it begins.")))));
+    add(optional(
+        in(length, "mm", within(from(0), key("walls.*.far_radius", PELLETLAB_MEMBER(c.walls.at(name).far_radius), "Of the cone where it ends; 0: a tip.")))));
+    add(optional(in(length, "mm", within(from(0), key("walls.*.length", PELLETLAB_MEMBER(c.walls.at(name).length), "Of cylinder and cone, along the axis.")))));
+    add(optional(in(length, "mm", within(from(0), key("walls.*.size", PELLETLAB_MEMBER(c.walls.at(name).size), "Edges of the box along x, y and z.")))));
+    add(optional(key("walls.*.material", PELLETLAB_MEMBER(c.walls.at(name).material), "Its material: a table [materials.<name>].")));
+    add(optional(key("walls.*.turns", PELLETLAB_MEMBER(c.walls.at(name).turns), "It turns with the drum or tester, as a lifter does, or stands still.")));
     return keys;
 }
 

@@ -123,7 +123,8 @@ CaseValue value_from_toml(const CaseKey& key, const std::string& name, const tom
             break;
     }
     const toml::array* list = node.as_array();
-    if (list == nullptr) throw wrong_type(key, name, "a list of three texts with number and unit", kind_of_node(node), place);
+    if (list == nullptr)
+        throw wrong_type(key, name, key.has_dimension() ? "a list of three texts with number and unit" : "a list of three numbers", kind_of_node(node), place);
     if (list->size() != 3) throw bad_input(name + " needs three values, and there are " + std::to_string(list->size()), advice(key), place);
     Vec3 vector;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -182,7 +183,7 @@ std::string value_as_toml(const CaseKey& key, const CaseValue& value) {
     }
     const Vec3& vector = std::get<Vec3>(value);
     std::string text;
-    for (int i = 0; i < 3; ++i) text += (i == 0 ? "" : ", ") + toml_string(number_text(key, vector[i]));
+    for (int i = 0; i < 3; ++i) text += (i == 0 ? "" : ", ") + (key.has_dimension() ? toml_string(number_text(key, vector[i])) : number_text(key, vector[i]));
     return "[" + text + "]";
 }
 
@@ -200,6 +201,8 @@ std::string range_text(const CaseKey& key) {
 
 std::string example_value(const CaseKey& key) {
     Case example = default_case(Rig::tube);
+    ExtraWall& wall = example.walls["pellet"];
+    wall.radius = wall.far_radius = wall.length = 0.01, wall.size = Vec3::Constant(0.01);
     const std::string name = key.path[0] == "contacts" ? "pellet-pellet" : "pellet";
     return value_as_toml(key, key.get(example, name));
 }

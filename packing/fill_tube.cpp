@@ -10,6 +10,7 @@
 #include "meshes/read_mesh.hpp"
 #include "observables/bed.hpp"
 #include "observables/lying_bed.hpp"
+#include "packing/extra_walls.hpp"
 #include "packing/fill_ways.hpp"
 #include "packing/lying_vessel.hpp"
 #include "packing/run_figures.hpp"
@@ -88,6 +89,7 @@ RunResult fill_tube(const Case& c, const RunInputs& inputs, const std::function<
     Vessel vessel = make_vessel(c, definition.templates.front());
     const FillPlan& plan = vessel.plan;
     definition.walls = std::move(vessel.walls);
+    add_walls_of_case(c, definition.walls);
     solver::Simulation simulation(std::move(definition));
     if (!keeping.from) add_round(simulation, c, plan, 0);
 

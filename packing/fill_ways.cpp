@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
+#include "packing/extra_walls.hpp"
 
 namespace pelletlab::packing {
 
@@ -31,15 +32,17 @@ double fall_time(const Case& c, double distance) {
     return (std::sqrt(v * v + 2.0 * g * distance) - v) / g;
 }
 
-/// A tube of given height is filled up to insertion.packing_fraction or to its rim; one as high as needed is made higher.
+/// Above the walls of the case. A tube of given height is filled up to insertion.packing_fraction or to its rim; one as high as needed is made higher.
 FillPlan plan_cloud(const Case& c, const RigidTemplate& pellet, FillPlan plan) {
-    const double radius = 0.5 * c.tube.diameter;
+    const double radius = 0.5 * c.tube.diameter, lower = top_of_extra_walls(c, radius);
     plan.rounds = {c.pellet.count};
     if (!(c.tube.height > 0.0)) {
-        plan.region = upright_region(pellet, c.pellet.count, c.insertion.packing_fraction, radius, 0.0);
+        plan.region = upright_region(pellet, c.pellet.count, c.insertion.packing_fraction, radius, lower);
     } else {
         const double wanted = c.pellet.count * pellet.mass_properties.volume / (c.insertion.packing_fraction * section(c)) + 2.0 * pellet.bounding_radius;
-        plan.region = {InsertionRegion::Axis::z, radius, 0.0, std::min(wanted, c.tube.height)};
+        if (lower + 2.0 * pellet.bounding_radius > c.tube.height)
+            throw bad_input("the walls of the case leave no room for loose pellets below the rim of the tube", "raise tube.height or leave it at 0");
+        plan.region = {InsertionRegion::Axis::z, radius, lower, std::min(lower + wanted, c.tube.height)};
         if (cloud_capacity(pellet, plan.region) < c.pellet.count) plan.region.upper = c.tube.height;
     }
     plan.top = plan.region.upper;
@@ -86,7 +89,7 @@ FillPlan plan_sieve(const Case& c, const RigidTemplate& pellet, FillPlan plan) {
 FillPlan plan_batches(const Case& c, const RigidTemplate& pellet, FillPlan plan) {
     const std::uint32_t batches = std::min(c.insertion.batches, c.pellet.count);
     for (std::uint32_t k = 0; k < batches; ++k) plan.rounds.push_back(c.pellet.count / batches + (k < c.pellet.count % batches ? 1 : 0));
-    plan.region = upright_region(pellet, plan.rounds.front(), c.insertion.packing_fraction, 0.5 * c.tube.diameter, 0.0);
+    plan.region = upright_region(pellet, plan.rounds.front(), c.insertion.packing_fraction, 0.5 * c.tube.diameter, top_of_extra_walls(c, 0.5 * c.tube.diameter));
     plan.top = plan.bed * dense / loose + 4.0 * pellet.bounding_radius + plan.region.upper;  // the last batch above a loose bed
     return plan;
 }

@@ -67,6 +67,7 @@ solver::SimulationDefinition define_simulation(const Case& c, const RunInputs& i
     definition.time_step = c.time.step;
     definition.physics = physics_of(c.physics);
     definition.body_forces.air.density = c.physics.air_density;
+    definition.body_forces.air.viscosity = c.physics.air_viscosity;
     definition.body_forces.attraction = c.physics.attraction;
     return definition;
 }

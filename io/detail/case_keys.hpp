@@ -40,7 +40,7 @@ struct CaseKey {
     std::string unit;  ///< printed with the value; empty for plain numbers
     Range range;
     std::vector<std::string> choices;                                    ///< of KeyKind::choice
-    bool optional = false;                                               ///< a material or contact of any name may leave it out
+    bool optional = false;                                               ///< a material, contact or wall of any name may leave it out
     std::string doc;                                                     ///< one line
     std::function<CaseValue(const Case&, const std::string& name)> get;  ///< `name` fills the «*»
     std::function<void(Case&, const std::string& name, const CaseValue&)> set;
@@ -58,6 +58,7 @@ struct CaseSection {
 const std::vector<CaseKey>& case_keys();
 /// Rows of it that stand in a file of their own.
 std::vector<CaseKey> keys_of_piles_and_testers();
+std::vector<CaseKey> keys_of_extra_walls();
 const std::vector<CaseSection>& case_sections();
 
 /// Keys that stand directly in the section, in the order of the table.
@@ -69,7 +70,7 @@ std::string path_text(const std::vector<std::string>& path);
 /// True when the rig takes no notice of the section: [drum] for a tube.
 bool is_idle_section(const CaseSection& section, Rig rig);
 
-/// Names that fill the «*» of a section in this case: its materials, its contacts; one empty name for a section without «*».
+/// Names that fill the «*» of a section in this case: its materials, contacts, walls; one empty name for a section without «*».
 std::vector<std::string> names_in(const Case& c, const CaseSection& section);
 
 /// Materials and contacts that need not be written: the study's pellet and vessel. Null when there is none of that name.

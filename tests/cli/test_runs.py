@@ -206,6 +206,56 @@ class RefusedRuns(PelletlabTest):
         self.fails(BAD_INPUT, "fill", self.new_case(), *SMALL, "--set", "physics.vibration_frequency=50000 Hz", "--set",
                    "physics.vibration_amplitude=0 mm, 0 mm, 1 mm", "-o", "out", says=["wall «shell» jumps", "time 0 s", "smaller time step"])
 
+    def test_bodies_that_overlap_a_wall_at_the_start(self):
+        """An upright plane through the loose cloud: some pellet stands in its way."""
+        case = self.new_case()
+        self.write(case, self.read(case) + '\n[walls.divider]\nshape = "plane"\npoint = ["0 mm", "0 mm", "0 mm"]\naxis = [1, 0, 0]\n')
+        self.fails(BAD_INPUT, "fill", case, *SMALL, "--set", "pellet.count=200", "-o", "out", says=["body", "overlaps wall «divider» by", "near (", "apart"])
+
+
+class ExactWalls(PelletlabTest):
+    """Walls in closed form, asked for in the case."""
+
+    def values(self, folder):
+        return {one["name"]: one["value"] for one in strict_json(self.read(folder, "observables.json"))["values"]}
+
+    def test_exact_tube_with_a_cone_and_air(self):
+        plain, case = self.new_case(), "hill.toml"
+        self.write(case, self.read(plain) + '\n[walls.hill]\nshape = "cone"\npoint = ["0 mm", "0 mm", "0 mm"]\naxis = [0, 0, 1]\nradius = "20 mm"\n'
+                   'far_radius = "0 mm"\nlength = "12 mm"\n\n[contacts.pellet-hill]\nrestitution = 0.2\nsliding_friction = 2\nrolling_friction = 1\n')
+        settings = [*SMALL, "--set", "time.settle_limit=0.3 s", "--set", "pellet.count=12", "--set", "insertion.packing_fraction=2 %"]
+        self.succeeds("fill", plain, *settings, "-o", "plain")
+        self.succeeds("fill", case, *settings, "-o", "hill")
+        self.assertIn('shape = "cone"', self.read("hill/case.resolved.toml"))
+        # Friction holds the pellets on the slope (31°). Spread over it they lie 4 mm higher in the mean; none may lie inside the cone.
+        self.assertGreater(self.values("hill")["mean_centroid_height"], self.values("plain")["mean_centroid_height"] + 1.0)
+        self.succeeds("fill", plain, *settings, "--set", "tube.surface=exact", "--set", "physics.air_density=1.2 kg/m^3",
+                      "--set", "physics.air_viscosity=0.018 mPa*s", "-o", "exact")
+        heights = [self.values(folder)["mean_centroid_height"] for folder in ("plain", "exact")]
+        self.assertAlmostEqual(heights[0], heights[1], delta=1.0)  # [mm]: a single layer, and in one of the two the air slows the fall a little
+        self.assertIn('surface = "exact"', self.read("exact/case.resolved.toml"))
+
+    def test_exact_drum_with_a_lifter_that_turns(self):
+        case = self.new_case("drum")
+        self.write(case, self.read(case) + '\n[walls.lifter]\nshape = "box"\npoint = ["0 mm", "0 mm", "37 mm"]\nsize = ["4 mm", "20 mm", "8 mm"]\n'
+                   'turns = true\n')
+        settings = [*SMALL_DRUM, "--set", "drum.surface=exact", "--set", "drum.speed=200 rpm", "--set", "time.measure=0.2 s"]
+        self.succeeds("drum", case, *settings, "-o", "out")
+        self.assertIn("[walls.lifter]", self.read("out/case.resolved.toml"))
+        self.fails(BAD_INPUT, "fill", case, "--set", "rig=tube", "--set", "pellet.count=6", "-o", "tube", says=["walls.lifter", "only a drum or a tester turns", "drum.toml:"])
+
+    def test_mistakes_have_their_place(self):
+        case = self.new_case()
+        text = self.read(case)
+        line = text.count("\n") + 2
+        for lines, number, says in (
+                ('[walls.pin]\nshape = "sphere"', 1, ["walls.pin.shape", "box"]),
+                ('[walls.pin]\nshape = "box"\npoint = ["0 mm", "0 mm", "0 mm"]\nsize = ["1 mm", "0 mm", "1 mm"]', 3, ["a box needs three edges"]),
+                ('[walls.pin]\nshape = "plane"\npoint = [0, 0, 0]', 2, ["unit"]),
+                ('[walls.pin]\nshape = "plane"\npoint = ["0 mm", "0 mm", "0 mm"]\naxes = [0, 0, 1]', 3, ["axes", "axis"])):
+            self.write(case, text + "\n" + lines + "\n")
+            self.fails(BAD_INPUT, "case", "check", case, says=[f"{case}:{line + number}", *says])
+
 
 class InterruptedRuns(PelletlabTest):
     def part_file(self):

@@ -60,7 +60,8 @@ void expect_same_as_file(const std::string& text, const std::string& name) {
 
 TEST(CaseDocuments, SchemaCoversEveryKeyAndAcceptsItsDefault) {
     const json root = json::parse(io::case_json_schema());
-    const Case c = io::default_case(Rig::drum);
+    Case c = io::default_case(Rig::drum);
+    c.walls["vessel"] = {};
     for (const io::detail::CaseKey& key : io::detail::case_keys()) {
         const json* schema = schema_of(root, key.path);
         ASSERT_NE(schema, nullptr) << io::detail::path_text(key.path);

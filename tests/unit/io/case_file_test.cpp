@@ -31,8 +31,19 @@ Case awkward_case(Rig rig, std::uint64_t stream) {
     c.contacts.clear();
     for (const std::string& name : {std::string("pellet-pellet"), std::string("pellet-perspex"), "pellet-" + wall_names(c).front()})
         c.contacts[name] = {random.uniform(), positive(), positive()};
-    c.tube = {positive() + 0.01, positive(), rig == Rig::tube && stream % 2 == 1, 97, "tube.stl", "in", "perspex"};
-    c.drum = {positive() + 0.01, positive(), -positive(), random.uniform(), random.uniform(), 33, false, "drum.stl", "um", "perspex"};
+    c.tube = {positive() + 0.01, positive(), rig == Rig::tube && stream % 2 == 1, 97, "tube.stl", "in", "perspex", "facets"};
+    c.drum = {positive() + 0.01, positive(), -positive(), random.uniform(), random.uniform(), 33, false, "drum.stl", "um", "perspex", "facets"};
+    if (stream % 5 == 3) {  // an exact surface, which goes without a mesh
+        c.tube.surface = c.drum.surface = "exact";
+        c.tube.mesh_file = c.tube.mesh_unit = c.drum.mesh_file = c.drum.mesh_unit = "";
+    }
+    for (const char* name : {"lifter", "γ \"wall\""}) {
+        ExtraWall& w = c.walls[name];
+        w.shape = rig == Rig::drum ? "box" : "cone", w.material = "perspex", w.turns = rig == Rig::drum || rig == Rig::tester;
+        w.point = {random.normal(), 0.1 + 0.2, -positive()}, w.axis = {random.normal(), random.normal(), 1.0 / 3.0};
+        w.radius = positive(), w.far_radius = positive(), w.length = positive(), w.size = {positive(), positive(), positive()};
+    }
+    c.physics.air_viscosity = positive();
     c.pile = {stream % 3 == 0 ? "cylinder" : "funnel", positive(), positive(), positive(), positive(), "c.stl", "mm", "perspex"};
     c.funnel = {positive() * 0.01, 0.5 + positive(), random.uniform(), 0.0, positive(), 31, "f.stl", "km"};
     c.tester = {positive() + 0.02, positive(), 0.01, 0.003, random.normal(), positive(), 17, "t.stl", "b.stl", "in", "perspex"};
