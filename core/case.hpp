@@ -225,7 +225,8 @@ inline bool has_funnel(const Case& c) {
     return (c.rig == Rig::pile && c.pile.release == "funnel") || (c.rig == Rig::tube && !c.tube.lying && c.insertion.way == "funnel");
 }
 
-/// Names of the rig's own walls, beside which a case may have others (Case::walls): a contact row «pellet-<wall name>» goes before «pellet-<material of the wall>».
+/// Names of the rig's own walls, beside which a case may have others (Case::walls): a contact row «pellet-<wall name>» goes before «pellet-<material of the
+/// wall>».
 inline std::vector<std::string> wall_names(const Case& c) {
     std::vector<std::string> names;
     switch (c.rig) {

@@ -61,8 +61,8 @@ std::string description(const CaseKey& key) {
     return text;
 }
 
-/// Default of the key as it stands in a file; for materials and contacts those of the named ones, those of other rigs where they differ; empty where a wall must
-/// state it.
+/// Default of the key as it stands in a file; for materials and contacts those of the named ones, those of other rigs where they differ; empty where a wall
+/// must state it.
 std::string default_words(const CaseKey& key) {
     const Case tube = default_case(Rig::tube);
     if (key.path[0] == "walls") {

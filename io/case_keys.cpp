@@ -63,7 +63,8 @@ void add_physics(const Add& add) {
     add(in(volume, "mm^3",
            within(above(0), key("physics.liquid_bridge_volume", PELLETLAB_MEMBER(c.physics.liquid_bridge_volume), "Liquid in every capillary bridge."))));
     add(in(density, "kg/m^3",
-           within(from(0), key("physics.air_density", PELLETLAB_MEMBER(c.physics.air_density), "Still air that drags at the pellets (Schiller & Naumann, on the sphere of the pellet's volume); 0: none."))));
+           within(from(0), key("physics.air_density", PELLETLAB_MEMBER(c.physics.air_density),
+                               "Still air that drags at the pellets (Schiller & Naumann, on the sphere of the pellet's volume); 0: none."))));
     add(in(viscosity, "Pa*s", within(above(0), key("physics.air_viscosity", PELLETLAB_MEMBER(c.physics.air_viscosity), "Dynamic viscosity of that air."))));
     add(in(acceleration, "m/s^2", key("physics.attraction", PELLETLAB_MEMBER(c.physics.attraction), "Uniform attraction beside gravity, per mass.")));
     add(in(frequency, "Hz",

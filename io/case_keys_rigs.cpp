@@ -56,7 +56,8 @@ std::vector<CaseKey> keys_of_extra_walls() {
     using namespace dimension;
     std::vector<CaseKey> keys;
     const auto add = [&keys](CaseKey k) { keys.push_back(std::move(k)); };
-    add(word({"plane", "disc", "cylinder", "cone", "box"}, key("walls.*.shape", PELLETLAB_MEMBER(c.walls.at(name).shape), "What it is; both of its sides act.")));
+    add(word({"plane", "disc", "cylinder", "cone", "box"},
+             key("walls.*.shape", PELLETLAB_MEMBER(c.walls.at(name).shape), "What it is; both of its sides act.")));
     add(in(length, "mm",
            key("walls.*.point", PELLETLAB_MEMBER(c.walls.at(name).point),
                "A point of the plane; the centre of disc and box; the centre of the end at which cylinder and cone begin.")));

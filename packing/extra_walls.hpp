@@ -14,8 +14,8 @@ namespace pelletlab::packing {
 /// twice as wide as the rig) and what the domain of the run is taken from.
 void add_walls_of_case(const Case& c, std::vector<solver::WallDefinition>& walls);
 
-/// Height above which the walls of [walls.<name>] leave a vertical tube of that radius free, at least 0 [m]. A loose cloud starts there, for a pellet that starts
-/// inside a cone never comes out. Planes steeper than 84° are left out: pellets start beside them.
+/// Height above which the walls of [walls.<name>] leave a vertical tube of that radius free, at least 0 [m]. A loose cloud starts there, for a pellet that
+/// starts inside a cone never comes out. Planes steeper than 84° are left out: pellets start beside them.
 double top_of_extra_walls(const Case& c, double radius);
 
 /// Whether the wall turns with the drum or tester.

@@ -89,7 +89,8 @@ FillPlan plan_sieve(const Case& c, const RigidTemplate& pellet, FillPlan plan) {
 FillPlan plan_batches(const Case& c, const RigidTemplate& pellet, FillPlan plan) {
     const std::uint32_t batches = std::min(c.insertion.batches, c.pellet.count);
     for (std::uint32_t k = 0; k < batches; ++k) plan.rounds.push_back(c.pellet.count / batches + (k < c.pellet.count % batches ? 1 : 0));
-    plan.region = upright_region(pellet, plan.rounds.front(), c.insertion.packing_fraction, 0.5 * c.tube.diameter, top_of_extra_walls(c, 0.5 * c.tube.diameter));
+    plan.region =
+        upright_region(pellet, plan.rounds.front(), c.insertion.packing_fraction, 0.5 * c.tube.diameter, top_of_extra_walls(c, 0.5 * c.tube.diameter));
     plan.top = plan.bed * dense / loose + 4.0 * pellet.bounding_radius + plan.region.upper;  // the last batch above a loose bed
     return plan;
 }

@@ -62,8 +62,7 @@ std::vector<BodyPlacement> snapshot(const Bed& bed, double time) {
     s.add_bodies(bed.bodies());
     s.advance(static_cast<std::uint64_t>(std::llround(time / s.definition().time_step)));
     std::vector<BodyPlacement> all(s.bodies().size());
-    for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] = {0, {s.bodies().position[i], s.bodies().orientation[i]}, s.bodies().velocity[i], s.bodies().spin[i]};
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = {0, {s.bodies().position[i], s.bodies().orientation[i]}, s.bodies().velocity[i], s.bodies().spin[i]};
     return all;
 }
 
@@ -82,25 +81,22 @@ Instant one_step(const Bed& bed, const std::vector<BodyPlacement>& bodies, int f
     Instant now;
     now.bodies = s.bodies();
     for (const ContactPoint& c : s.contact_points())
-        if (c.wall == 0) EXPECT_TRUE(now.shell.emplace(c.body_i, c).second) << "two contacts of one sphere with a smooth shell";
+        if (c.wall == 0) {
+            EXPECT_TRUE(now.shell.emplace(c.body_i, c).second) << "two contacts of one sphere with a smooth shell";
+        }
     now.torque = -s.wall_loads()[0].torque.y(), now.force = -s.wall_loads()[0].force.z();
     now.turned = bed.speed * s.time();
     return now;
 }
 
-/// The deepest facet of the polygon at a place: what a mesh of it must find.
-struct Facet {
-    Vec3 inward;
-    double distance;  ///< [m]
-};
-
-Facet nearest_facet(const Bed& bed, const Vec3& p, int facets, double turned) {
+/// Distance from the polygon's nearest facet: what a mesh of it must find [m].
+double distance_to_facet(const Bed& bed, const Vec3& p, int facets, double turned) {
     const double width = 2.0 * M_PI / facets, apothem = scene::corner_radius(bed.big_r, facets) * std::cos(0.5 * width);
     // A turn about +y takes z to x: angles from x towards −z grow with it. Facet k lies about the angle (k + ½) width.
     const double angle = std::atan2(-p.z(), p.x()) - turned;
     const double middle = (std::floor(angle / width) + 0.5) * width + turned;
     const Vec3 out(std::cos(middle), 0.0, -std::sin(middle));
-    return {-out, apothem - p.dot(out)};
+    return apothem - p.dot(out);
 }
 
 TEST(DrumBed, AnInstantOfAMovingBedFeels4800FacetsAsTheCylinder) {
@@ -111,10 +107,11 @@ TEST(DrumBed, AnInstantOfAMovingBedFeels4800FacetsAsTheCylinder) {
     ASSERT_GT(exact.shell.size(), 40u);
     EXPECT_GT(exact.torque, 0.0);
 
-    // Geometry: each contact with the mesh is that with the polygon's facet in closed form, and lies within the polygon's corner excess of the cylinder's.
+    // Geometry: each overlap is that with the polygon's nearest facet in closed form, and lies within the polygon's corner excess of the cylinder's. A sphere
+    // touches some twenty of these facets; its one contact with the smooth patch points somewhere between their normals.
     const double tilt = M_PI / facets, excess = scene::corner_radius(bed.big_r, facets) - bed.big_r;
-    double worst_normal = 0.0, worst_overlap = 0.0, worst_excess = 0.0, worst_tilt = 0.0, worst_share = 0.0;
-    const double modulus = bed.material.shear_modulus / (1.0 - bed.material.poisson_ratio);      // E* of two equal materials: E / (2 (1 − ν²)), E = 2 G (1 + ν)
+    double worst_overlap = 0.0, worst_excess = 0.0, worst_tilt = 0.0, worst_share = 0.0;
+    const double modulus = bed.material.shear_modulus / (1.0 - bed.material.poisson_ratio);  // E* of two equal materials: E / (2 (1 − ν²)), E = 2 G (1 + ν)
     const double modulus_t = bed.material.shear_modulus / (2.0 * (2.0 - bed.material.poisson_ratio));  // G*
     const double mass = bed.definition(0).templates[0].mass_properties.mass, log_e = std::log(bed.wall_restitution);
     const double damping = 2.0 * std::sqrt(5.0 / 6.0) * -log_e / std::sqrt(log_e * log_e + M_PI * M_PI), dt = bed.definition(0).time_step;
@@ -125,14 +122,14 @@ TEST(DrumBed, AnInstantOfAMovingBedFeels4800FacetsAsTheCylinder) {
             continue;
         }
         const ContactPoint& with_mesh = found->second;
-        const Facet facet = nearest_facet(bed, mesh.bodies.position[body], facets, mesh.turned);
-        worst_normal = std::max(worst_normal, (with_mesh.normal - facet.inward).norm());
-        worst_overlap = std::max(worst_overlap, std::abs(with_mesh.overlap - (bed.r - facet.distance)));
+        const double distance = distance_to_facet(bed, mesh.bodies.position[body], facets, mesh.turned);
+        worst_overlap = std::max(worst_overlap, std::abs(with_mesh.overlap - (bed.r - distance)));
         worst_excess = std::max(worst_excess, std::abs(with_mesh.overlap - with_cylinder.overlap) / excess);
         worst_tilt = std::max(worst_tilt, (with_mesh.normal - with_cylinder.normal).norm() / tilt);
 
         // Forces: the law is continuous, so a change of the overlap by the excess and of the normal by the tilt bounds the change of force:
-        //   |ΔF| ≤ (1 + μ) (S_n Δd + c_n |v| Δn) + (c_t + 2 S_t Δt) |v| Δn + |F| Δn,   v the sphere's velocity against the wall there, histories two steps long.
+        //   |ΔF| ≤ (1 + μ) (S_n Δd + c_n |v| Δn) + (c_t + 2 S_t Δt) |v| Δn + |F| Δn,   v the sphere's velocity against the wall there, histories two steps
+        //   long.
         const Vec3 spot = exact.bodies.position[body] - bed.r * with_cylinder.normal;
         const Vec3 v = exact.bodies.velocity[body] + exact.bodies.spin[body].cross(-bed.r * with_cylinder.normal) - bed.speed * Vec3::UnitY().cross(spot);
         const double root = std::sqrt(bed.r * std::max(with_cylinder.overlap, with_mesh.overlap)), s_n = 2.0 * modulus * root, s_t = 8.0 * modulus_t * root;
@@ -142,9 +139,10 @@ TEST(DrumBed, AnInstantOfAMovingBedFeels4800FacetsAsTheCylinder) {
         worst_share = std::max(worst_share, (exact.bodies.force[body] - mesh.bodies.force[body]).norm() / most);
     }
     for (const auto& [body, with_mesh] : mesh.shell)
-        if (!exact.shell.contains(body)) EXPECT_LT(with_mesh.overlap, excess) << "a contact that the cylinder does not have";
+        if (!exact.shell.contains(body)) {
+            EXPECT_LT(with_mesh.overlap, excess) << "a contact that the cylinder does not have";
+        }
     const std::string name = "Instant of a moving bed of 300 spheres, 4800 facets";
-    figure_below(name, "normal against that of the polygon's facet", worst_normal, 1e-9);
     figure_below(name, "overlap against that of the polygon's facet / sphere radius", worst_overlap / bed.r, 1e-10);
     figure_below(name, "overlap against the exact cylinder's / corner excess of the polygon", worst_excess, 1.001);
     figure_below(name, "normal against the exact cylinder's / half angle of a facet", worst_tilt, 1.001);
@@ -183,7 +181,7 @@ struct BedRun {
     Mean force;   ///< [N], on the shell, downwards
 };
 
-constexpr double block = 1.0;  // [s]
+constexpr double block = 0.6;  // [s]
 constexpr int blocks = 12;
 
 BedRun tumble(const Bed& bed, int facets) {
@@ -207,12 +205,12 @@ BedRun tumble(const Bed& bed, int facets) {
 TEST(DrumBedLong, ABedFeelsTheTorqueOfTheCylinder) {
     const Bed bed;
     const BedRun exact = tumble(bed, 0);
-    for (const int facets : {120, 4800}) {
+    for (const int facets : {4800}) {
         const BedRun run = tumble(bed, facets);
         const double error = std::hypot(run.torque.error / run.torque.value, exact.torque.error / exact.torque.value);
         std::printf("%d facets: torque %.6g ± %.2g, neighbouring blocks %.2f; exact %.6g ± %.2g, %.2f; ratio %.4f ± %.4f\n", facets, run.torque.value,
-                    run.torque.error, run.torque.neighbours, exact.torque.value, exact.torque.error, exact.torque.neighbours, run.torque.value / exact.torque.value,
-                    error);
+                    run.torque.error, run.torque.neighbours, exact.torque.value, exact.torque.error, exact.torque.neighbours,
+                    run.torque.value / exact.torque.value, error);
         char text[80];
         std::snprintf(text, sizeof text, "mean torque / exact cylinder's, ± %.4f (standard error of %d blocks)", error, blocks);
         figure(drum_title("Sliding bed of 300 spheres (long)", facets), text, 1.0, run.torque.value / exact.torque.value, 5e-3 + 2.0 * error);

@@ -1,5 +1,5 @@
-// Round walls cut into facets, for the tests that hold them against the exact cylinder. The polygon that stands for a circle of radius R has its area: corners at
-// R sqrt(θ / sin θ) with θ = 2π/N. A bed in it has the volume that it has in the cylinder; that is what a fair comparison needs.
+// Round walls cut into facets, for the tests that hold them against the exact cylinder. The polygon that stands for a circle of radius R has its area: corners
+// at R sqrt(θ / sin θ) with θ = 2π/N. A bed in it has the volume that it has in the cylinder; that is what a fair comparison needs.
 #pragma once
 
 #include <string>

@@ -17,16 +17,16 @@
 namespace pelletlab::verification {
 
 struct RigidSledge {
-    double mass = 0.0, inertia = 0.0;           ///< [kg], [kg m²] about the centre of mass
-    double b = 0.0, h = 0.0, r = 0.0;           ///< [m], runners at (± b, −h) of radius r
-    double apothem = 0.0;                       ///< [m], of the polygon
+    double mass = 0.0, inertia = 0.0;  ///< [kg], [kg m²] about the centre of mass
+    double b = 0.0, h = 0.0, r = 0.0;  ///< [m], runners at (± b, −h) of radius r
+    double apothem = 0.0;              ///< [m], of the polygon
     int facets = 0;
-    double speed = 0.0;                         ///< [rad/s]
+    double speed = 0.0;  ///< [rad/s]
     double friction = 0.0, restitution = 0.0, gravity = 9.81;
 
     using Vec2 = Eigen::Vector2d;
 
-    /// Mean of the torque about the axis that the sledge takes from the drum, over `turns_of_facets` facets after `rest` seconds, from an angle φ [N m].
+    /// Mean of the torque about the axis that the sledge takes from the drum, over `facets_counted` facets after `rest` seconds, from an angle φ [N m].
     double mean_torque(double phi, double time_step, double rest, int facets_counted) const {
         Eigen::Vector3d q(0.0, 0.0, phi), v(0.0, 0.0, 0.0);  // x, z, angle; x counted with the sense of rotation
         const double start = std::sqrt(std::pow(apothem - r, 2) - b * b) - h - 0.01 * apothem;
@@ -56,9 +56,9 @@ private:
         std::vector<Contact> closed;
         for (const double side : {-b, b}) {
             const Vec2 arm = turn * Vec2(side, -h), centre = q.head<2>() + arm;
-            const double facet = 2.0 * M_PI / facets, nearest = std::round((std::atan2(centre.y(), centre.x()) - speed * time) / facet);
+            const double facet = 2.0 * M_PI / facets, nearest = std::floor((std::atan2(centre.y(), centre.x()) - speed * time) / facet);
             for (const double k : {nearest - 1.0, nearest, nearest + 1.0}) {
-                const double a = speed * time + k * facet;
+                const double a = speed * time + (k + 0.5) * facet;  // a corner on the first axis at time 0
                 const Vec2 out(std::cos(a), std::sin(a));
                 if (centre.dot(out) < apothem - r) continue;
                 Contact c{-out, {-out.y(), out.x()}, arm + r * out, centre + r * out};
