@@ -92,7 +92,7 @@ const Mistake mistakes[] = {
     {"ContactOfNobody", "[contacts.pellet-flor]\nrestitution = 0.5\nsliding_friction = 0.5\nrolling_friction = 0\n", 1, 11,
      "its partner is no wall and no defined material", "did you mean 'pellet-floor'?"},
     {"ContactOfTheOtherRig", "rig = \"drum\"\n[contacts.pellet-floor]\nrestitution = 0.5\nsliding_friction = 0.5\nrolling_friction = 0\n", 2, 11,
-     "is no wall of the rig", "'shell'"},
+     "is no wall", "'shell'"},
     {"MissingContactRow", "[tube]\nmaterial = \"glass\"\n[materials.glass]\ndensity = \"2500 kg/m^3\"\npoisson_ratio = 0.2\nshear_modulus = \"1 GPa\"\n", 2, 12,
      "the wall 'shell' has no contact row with the pellets", "[contacts.pellet-glass]"},
     {"EmptyName", "name = \"\"\n", 1, 8, "name is empty", "give the run a name"},
