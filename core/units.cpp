@@ -73,7 +73,7 @@ constexpr std::array named_dimensions{
     NamedDimension{"energy", dimension::energy, {"J", "mJ", nullptr}},
     NamedDimension{"surface energy", dimension::surface_energy, {"J/m^2", "N/m", nullptr}},
     NamedDimension{"frequency", dimension::frequency, {"Hz", nullptr, nullptr}},
-    NamedDimension{"viscosity", dimension::viscosity, {"Pa*s", "mPa*s", nullptr}},
+    NamedDimension{"viscosity", dimension::viscosity, {"Pa*s", nullptr, nullptr}},
 };
 
 struct ParsedUnit {

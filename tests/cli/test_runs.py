@@ -230,7 +230,7 @@ class ExactWalls(PelletlabTest):
         # Friction holds the pellets on the slope (31°). Spread over it they lie 4 mm higher in the mean; none may lie inside the cone.
         self.assertGreater(self.values("hill")["mean_centroid_height"], self.values("plain")["mean_centroid_height"] + 1.0)
         self.succeeds("fill", plain, *settings, "--set", "tube.surface=exact", "--set", "physics.air_density=1.2 kg/m^3",
-                      "--set", "physics.air_viscosity=0.018 mPa*s", "-o", "exact")
+                      "--set", "physics.air_viscosity=1.8e-5 Pa*s", "-o", "exact")
         heights = [self.values(folder)["mean_centroid_height"] for folder in ("plain", "exact")]
         self.assertAlmostEqual(heights[0], heights[1], delta=1.0)  # [mm]: a single layer, and in one of the two the air slows the fall a little
         self.assertIn('surface = "exact"', self.read("exact/case.resolved.toml"))
