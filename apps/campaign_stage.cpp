@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <csignal>
 #include <cstring>
 
@@ -18,11 +17,9 @@
 #include "campaign/design.hpp"
 #include "core/error.hpp"
 #include "core/progress.hpp"
-#include "core/provenance.hpp"
 #include "io/campaign_plan_file.hpp"
 #include "io/case_file.hpp"
 #include "io/files.hpp"
-#include "io/observables_file.hpp"
 
 extern char** environ;
 
@@ -32,9 +29,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path store_file(const fs::path& folder) {
-    return folder / "campaign.sqlite";
-}
 fs::path lock_file(const fs::path& folder, const std::string& worker) {
     return folder / "workers" / (worker + ".lock");
 }
@@ -119,12 +113,16 @@ void run_pool(const OpenedCampaign& campaign, const CampaignRequest& request) {
     ProgressPrinter printer;
     const ProgressSink progress = printer.sink();
     bool failed = false;
+    constexpr int looks_of_grace = 6;
+    int looks_since_interrupt = 0;
     while (!workers.empty()) {
         const auto counts = store.counts();
         const int total = counts[0] + counts[1] + counts[2] + counts[3];
         progress({"runs", static_cast<double>(counts[2] + counts[3]), static_cast<double>(total), "runs", 0.0, "",
                   fmt::format("{} at work{}", counts[1], counts[3] > 0 ? fmt::format(", {} failed", counts[3]) : "")});
-        if (interrupt_requested())
+        // Ctrl-C of a terminal reaches the workers too, and a second signal would end them before they have kept their place: only who is still there later has
+        // not heard.
+        if (interrupt_requested() && ++looks_since_interrupt == looks_of_grace)
             for (const pid_t worker : workers) ::kill(worker, SIGINT);
         ::usleep(500000);
         for (auto at = workers.begin(); at != workers.end();) {
@@ -164,6 +162,10 @@ void write_jobs(const OpenedCampaign& campaign, const CampaignRequest& request) 
 }
 
 }  // namespace
+
+fs::path store_file(const fs::path& folder) {
+    return folder / "campaign.sqlite";
+}
 
 OpenedCampaign open_campaign(const CampaignRequest& request) {
     OpenedCampaign campaign{io::read_campaign_plan(request.plan_file), request.folder};
@@ -231,126 +233,6 @@ void run_campaign(const CampaignRequest& request) {
     }
     export_campaign(campaign);
     print_line(fmt::format("  took {}", duration_text(stopwatch.seconds())));
-}
-
-namespace {
-
-struct Column {
-    std::string observable, unit, axis_name, axis_unit;
-    bool is_profile = false;
-    std::vector<double> axis;
-};
-
-/// Value of one column in a run; NaN when the run does not have it.
-double value_in(const Observables& run, const Column& column, double axis) {
-    if (!column.is_profile) {
-        for (const Observable& o : run.values)
-            if (o.name == column.observable) return o.value;
-        return not_known;
-    }
-    for (const Profile& p : run.profiles) {
-        if (p.name != column.observable) continue;
-        for (std::size_t i = 0; i < p.axis.size(); ++i)
-            if (std::abs(p.axis[i] - axis) < 1e-9 * std::max(1.0, std::abs(axis))) return p.value[i];
-    }
-    return not_known;
-}
-
-Column column_of(const PlannedObservable& wanted, const std::vector<Observables>& runs, const std::string& file) {
-    Column column;
-    column.observable = wanted.name;
-    for (const Observables& run : runs) {
-        for (const Observable& o : run.values)
-            if (o.name == wanted.name) {
-                column.unit = o.unit;
-                return column;
-            }
-        for (const Profile& p : run.profiles) {
-            if (p.name != wanted.name) continue;
-            column.is_profile = true;
-            column.unit = p.unit;
-            column.axis_name = p.axis_name;
-            column.axis_unit = p.axis_unit;
-            for (const double x : p.axis)
-                if (wanted.axis_lower == wanted.axis_upper || (x >= wanted.axis_lower && x <= wanted.axis_upper)) column.axis.push_back(x);
-            return column;
-        }
-    }
-    std::string known;
-    if (!runs.empty())
-        for (const Observable& o : runs[0].values) known += (known.empty() ? "" : ", ") + o.name;
-    throw bad_input("no finished run measures '" + wanted.name + "'", known.empty() ? "run the campaign first" : "the first run has: " + known, {file});
-}
-
-std::string field(double value) {
-    return std::isfinite(value) ? fmt::format("{:.17g}", value) : std::string();
-}
-
-}  // namespace
-
-void export_campaign(const OpenedCampaign& campaign) {
-    const CampaignPlan& plan = campaign.plan;
-    const auto rows = io::CampaignStore(store_file(campaign.folder)).runs();
-    std::vector<Observables> measured(rows.size());
-    std::vector<Observables> finished;
-    int failed = 0, open = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        failed += rows[i].state == io::RunState::failed ? 1 : 0;
-        open += rows[i].state == io::RunState::planned || rows[i].state == io::RunState::running ? 1 : 0;
-        if (rows[i].state != io::RunState::finished) continue;
-        measured[i] = io::parse_observables(rows[i].observables, fmt::format("run {}", rows[i].number));
-        finished.push_back(measured[i]);
-    }
-    std::vector<Column> columns;
-    for (const PlannedObservable& o : plan.observables) columns.push_back(column_of(o, finished, plan.file));
-    std::string head = "regime,status,seed", toml;
-    for (const auto& p : plan.parameters) head += "," + p.name;
-    for (const auto& e : plan.effects) head += "," + e.name;
-    for (const Column& c : columns) {
-        if (!c.is_profile) head += "," + c.observable;
-        for (const double x : c.axis) head += fmt::format(",{}({:.9g})", c.observable, x);
-    }
-    std::string text = head + "\n";
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (rows[i].state == io::RunState::planned || rows[i].state == io::RunState::running) continue;
-        std::string status = rows[i].state == io::RunState::failed ? "failed" : measured[i].status;
-        std::replace(status.begin(), status.end(), ',', ';');
-        text += fmt::format("{},{},{}", rows[i].rig, status, rows[i].seed);
-        for (const double v : rows[i].parameters) text += "," + field(v);
-        for (const double v : rows[i].effects) text += "," + field(v);
-        for (const Column& c : columns) {
-            if (!c.is_profile) text += "," + field(value_in(measured[i], c, 0.0));
-            for (const double x : c.axis) text += "," + field(value_in(measured[i], c, x));
-        }
-        text += "\n";
-    }
-    io::write_text(campaign.folder / "runs.csv", text);
-    const auto quoted = [](const std::string& s) { return "\"" + s + "\""; };
-    toml = fmt::format(
-        "# Made by pelletlab campaign from {}\nname = {}\nsource = {}\ntable = \"runs.csv\"\nlargest_failed_share = {}\n\n[status]\ncolumn = \"status\"\ngood "
-        "= [",
-        plan.file, quoted(plan.name), quoted("pelletlab " + build_version()), plan.largest_failed_share);
-    for (std::size_t i = 0; i < plan.good.size(); ++i) toml += (i > 0 ? ", " : "") + quoted(plan.good[i]);
-    toml += "]\n\n[regime]\ncolumn = \"regime\"\nname = \"rig\"\n";
-    for (const auto& p : plan.parameters)
-        toml += fmt::format("\n[[parameter]]\nname = {}\nunit = {}\nrange = [{:.17g}, {:.17g}]\nscale = {}\n", quoted(p.name), quoted(p.unit), p.lower, p.upper,
-                            quoted(p.logarithmic ? "log" : "linear"));
-    for (const auto& e : plan.effects)
-        toml += fmt::format("\n[[effect]]\nname = {}\ntitle = {}\nunit = {}\nbaseline = {:.17g}\nfull = {:.17g}\nscale = {}\ntwo_sided = {}\nclass = {}\n",
-                            quoted(e.name), quoted(e.title), quoted(e.unit), e.baseline, e.full, quoted(e.square_root ? "sqrt" : "linear"), e.two_sided,
-                            quoted(e.effect_class));
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-        const Column& c = columns[i];
-        toml +=
-            fmt::format("\n[[observable]]\nname = {}\nunit = {}\ntolerance = {:.17g}\n", quoted(c.observable), quoted(c.unit), plan.observables[i].tolerance);
-        if (c.is_profile)
-            toml += fmt::format("columns = {}\naxis = {}\naxis_unit = {}\n", quoted(c.observable + "(*)"), quoted(c.axis_name), quoted(c.axis_unit));
-    }
-    io::write_text(campaign.folder / "campaign.toml", toml);
-    print_written(campaign.folder / "runs.csv",
-                  fmt::format("{} runs{}{}", rows.size() - static_cast<std::size_t>(open), failed > 0 ? fmt::format(", {} of them failed", failed) : "",
-                              open > 0 ? fmt::format("; {} are still to be run", open) : ""));
-    print_written(campaign.folder / "campaign.toml", "what diagnose and calibrate read");
 }
 
 }  // namespace pelletlab::apps

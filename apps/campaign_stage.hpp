@@ -21,6 +21,9 @@ struct OpenedCampaign {
     std::filesystem::path folder;
 };
 
+/// <folder>/campaign.sqlite
+std::filesystem::path store_file(const std::filesystem::path& folder);
+
 /// Reads the plan and puts its design into the store. Every case of the design is read first, so that what is wrong with a key or a clump is said before
 /// anything runs. Runs whose worker has died are given back.
 OpenedCampaign open_campaign(const CampaignRequest& request);

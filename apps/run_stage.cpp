@@ -40,10 +40,6 @@ std::vector<std::string*> wall_meshes(Case& c) {
     return {&c.tube.mesh_file, &c.drum.mesh_file, &c.pile.mesh_file, &c.funnel.mesh_file, &c.tester.mesh_file, &c.tester.baffle_mesh_file};
 }
 
-fs::path beside_case(const Case& c, const std::string& file) {
-    return fs::path(c.folder) / file;
-}
-
 StageKey key_of(const Case& c, const fs::path& clump_file) {
     StageKey key;
     key.verb = verb_of(c.rig);
@@ -51,14 +47,14 @@ StageKey key_of(const Case& c, const fs::path& clump_file) {
     key.inputs["clump"] = io::sha256_of_file(clump_file);
     Case own = c;
     for (const std::string* mesh : wall_meshes(own))
-        if (!mesh->empty()) key.inputs["wall mesh " + *mesh] = io::sha256_of_file(beside_case(c, *mesh));
+        if (!mesh->empty()) key.inputs["wall mesh " + *mesh] = io::sha256_of_file(io::path_in_case(c, *mesh));
     return key;
 }
 
 }  // namespace
 
 std::string run_key(const Case& c) {
-    const StageKey key = key_of(c, beside_case(c, c.pellet.clump_file));
+    const StageKey key = key_of(c, io::path_in_case(c, c.pellet.clump_file));
     std::string text = build_version() + "\n" + key.verb + "\n" + key.settings + "\n";
     for (const auto& [name, hash] : key.inputs) text += name + " " + hash + "\n";
     return io::sha256_of_text(text);
@@ -126,7 +122,7 @@ Case as_seen_from(Case c, const fs::path& folder) {
     std::vector<std::string*> files = wall_meshes(c);
     files.push_back(&c.pellet.clump_file);
     for (std::string* file : files)
-        if (!file->empty() && fs::path(*file).is_relative()) *file = fs::relative(beside_case(c, *file), folder).generic_string();
+        if (!file->empty() && fs::path(*file).is_relative()) *file = fs::relative(io::path_in_case(c, *file), folder).generic_string();
     return c;
 }
 
@@ -167,7 +163,7 @@ RunSummary run_case(const RunRequest& request, Rig expected) {
     if (c.rig != expected)
         throw usage_error(fmt::format("'{}' is a case for the {}", request.case_file.string(), rig_name(c.rig)), "run it with: pelletlab " + verb_of(c.rig));
 
-    const fs::path clump_file = beside_case(c, c.pellet.clump_file);
+    const fs::path clump_file = io::path_in_case(c, c.pellet.clump_file);
     if (!fs::exists(clump_file))
         throw bad_input("the clump template '" + clump_file.string() + "' is not there",
                         "make it with: pelletlab shape MESH --unit mm -o " + clump_file.string(), {request.case_file.string()});

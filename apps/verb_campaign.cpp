@@ -14,7 +14,7 @@ namespace {
 
 void print_status(const CampaignRequest& request) {
     const OpenedCampaign campaign = open_campaign(request);
-    const io::CampaignStore store(campaign.folder / "campaign.sqlite");
+    const io::CampaignStore store(store_file(campaign.folder));
     const auto counts = store.counts();
     print_pairs({{"finished", std::to_string(counts[2])},
                  {"at work", std::to_string(counts[1])},

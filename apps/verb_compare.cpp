@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "apps/shape_stage.hpp"
 #include "apps/terminal.hpp"
 #include "apps/verbs.hpp"
 #include "core/error.hpp"
@@ -61,10 +62,7 @@ Run read_run(const fs::path& folder, const std::string& definition) {
     Run run;
     packing::SimulatedBed& bed = run.bed;
     bed.folder = folder.string();
-    bed.shape = fs::path(c.pellet.clump_file).filename().string();
-    for (const char* ending : {".toml", ".clump"})
-        if (bed.shape.size() > std::string(ending).size() && bed.shape.substr(bed.shape.size() - std::string(ending).size()) == ending)
-            bed.shape.resize(bed.shape.size() - std::string(ending).size());
+    bed.shape = stem_of(c.pellet.clump_file).filename().string();
     bed.spheres = static_cast<double>(head.shapes.at(0).rigid.spheres.size());
     bed.pellets = static_cast<double>(head.shape_of_body.size());
     bed.pellet_mass = head.shapes[0].rigid.mass_properties.mass;
@@ -131,15 +129,12 @@ std::string csv_of(const packing::BedReport& report) {
         return a == inference::Agreement::equivalent ? "equivalent" : a == inference::Agreement::differs ? "differs" : "undecided";
     };
     const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{:.6g}", x) : std::string(); };
-    const auto tail = [&](const auto& c) {
-        return fmt::format("{:.6g},{:.6g},{:.6g},{:.4g},{:.6g},{:.4g},{}\n", 1e3 * c.difference.value, 1e3 * c.difference.lower, 1e3 * c.difference.upper,
-                           c.difference.p, 1e3 * c.equivalence.margin, c.equivalence.p, verdict(c.agreement));
-    };
     const auto sample = [&](const inference::Repeats& r) { return fmt::format("{:.6g},{},{}", 1e3 * r.mean, number(1e3 * r.deviation), r.count); };
-    for (const auto& c : report.against_measurement)
-        text += fmt::format("{:.0f},{},measured,{},{},", c.pellets, c.shape, sample(c.simulated), sample(c.measured)) + tail(c);
-    for (const auto& c : report.between_shapes)
-        text += fmt::format("{:.0f},{},{},{},{},", c.pellets, c.one, c.other, sample(c.first), sample(c.second)) + tail(c);
+    for (const auto* list : {&report.against_measurement, &report.between_shapes})
+        for (const packing::BedComparison& c : *list)
+            text += fmt::format("{:.0f},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.4g},{:.6g},{:.4g},{}\n", c.pellets, c.first, c.second, sample(c.first_height),
+                                sample(c.second_height), 1e3 * c.difference.value, 1e3 * c.difference.lower, 1e3 * c.difference.upper, c.difference.p,
+                                1e3 * c.equivalence.margin, c.equivalence.p, verdict(c.agreement));
     return text;
 }
 
@@ -155,16 +150,15 @@ report::Image chart_of(const std::vector<Run>& runs, const std::vector<MeasuredF
         least = std::min(least, run.bed.pellets);
         most = std::max(most, run.bed.pellets);
     }
-    const double s = std::cbrt(6.0 * one.pellet_volume / 3.14159265358979323846) / one.tube_diameter;
-    for (const packing::VoidageCorrelation& law : packing::voidage_correlations_of_cylinders()) {
-        if (s < law.lowest || s > law.highest) continue;
+    const auto lower = packing::correlated_beds(0.95 * least, one.pellet_volume, one.tube_diameter);
+    const auto upper = packing::correlated_beds(1.05 * most, one.pellet_volume, one.tube_diameter);
+    for (std::size_t k = 0; k < lower.size(); ++k) {
         report::ChartSeries line;
-        line.name = fmt::format("{}, cylinders (voidage {:.3f})", law.name, law.voidage(s));
-        for (const double n : {0.95 * least, 1.05 * most})
-            line.points.push_back({n, 1e3 * packing::bed_height_at_voidage(law.voidage(s), n, one.pellet_volume, one.tube_diameter)});
+        line.name = fmt::format("{}, cylinders (voidage {:.3f})", lower[k].correlation, lower[k].voidage);
+        line.points = {{0.95 * least, 1e3 * lower[k].height}, {1.05 * most, 1e3 * upper[k].height}};
         line.colour = {120, 120, 120};
         line.line = true;
-        line.dashed = chart.series.size() % 2 == 1;
+        line.dashed = k % 2 == 1;
         line.marker = report::Marker::cross;
         chart.series.push_back(line);
     }
@@ -207,19 +201,16 @@ void run_compare_tube(const CompareOptions& options) {
     const packing::BedReport report = packing::compare_beds(beds, fills, {0.01 * options.margin_percent, 0.05});
     print_mass_check(report);
     for (const auto& c : report.against_measurement) {
-        print_line(fmt::format("{:.0f} pellets, {}: simulated {}, measured {}", c.pellets, c.shape, height_text(c.simulated), height_text(c.measured)));
+        print_line(fmt::format("{:.0f} pellets, {}: simulated {}, measured {}", c.pellets, c.first, height_text(c.first_height), height_text(c.second_height)));
         print_line("  " + c.words);
     }
     for (const auto& c : report.between_shapes) {
-        print_line(fmt::format("{:.0f} pellets: {} {}, {} {}", c.pellets, c.one, height_text(c.first), c.other, height_text(c.second)));
-        print_line("  against " + c.other + ", " + c.words);
+        print_line(fmt::format("{:.0f} pellets: {} {}, {} {}", c.pellets, c.first, height_text(c.first_height), c.second, height_text(c.second_height)));
+        print_line("  against " + c.second + ", " + c.words);
     }
-    const double s = std::cbrt(6.0 * beds[0].pellet_volume / 3.14159265358979323846) / beds[0].tube_diameter;
-    for (const packing::VoidageCorrelation& law : packing::voidage_correlations_of_cylinders())
-        if (s >= law.lowest && s <= law.highest)
-            print_line(fmt::format("{} for cylinders: voidage {:.3f}, {:.2f} mm for {:.0f} pellets", law.name, law.voidage(s),
-                                   1e3 * packing::bed_height_at_voidage(law.voidage(s), beds[0].pellets, beds[0].pellet_volume, beds[0].tube_diameter),
-                                   beds[0].pellets));
+    for (const auto& bed : packing::correlated_beds(beds[0].pellets, beds[0].pellet_volume, beds[0].tube_diameter))
+        print_line(
+            fmt::format("{} for cylinders: voidage {:.3f}, {:.2f} mm for {:.0f} pellets", bed.correlation, bed.voidage, 1e3 * bed.height, beds[0].pellets));
     for (const std::string& text : report.left_out) print_line("left out: " + text);
     const fs::path folder = options.folder;
     io::prepare_output_folder(folder);

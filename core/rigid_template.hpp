@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,11 @@ struct MassProperties {
 
     Pose body_in_mesh() const { return {centre_of_mass_mesh, principal_axes}; }
 };
+
+/// Diameter of the ball of this volume [m].
+inline double equivalent_diameter(double volume) {
+    return std::cbrt(6.0 * volume / std::numbers::pi);
+}
 
 /// The same body of another density: mass and inertia scale with it.
 inline MassProperties with_density(MassProperties properties, double density) {

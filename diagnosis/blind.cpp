@@ -162,9 +162,7 @@ BlindVerdict blind_verdict(const Problem& problem, const Thresholds& thresholds)
     const Attributor attributor(problem);
     const Assessment assessment = assess(attributor, thresholds, false);
     const Attribution& a = assessment.attribution;
-    const auto name = [&](int e) {
-        return problem.model->campaign.description.effects[static_cast<std::size_t>(problem.model->library[static_cast<std::size_t>(e)])].name;
-    };
+    const auto name = [&](int e) { return problem.model->effect(e).name; };
     BlindVerdict v;
     v.id = problem.experiment.name;
     v.verdict = verdict_code(assessment.judgement.verdict);

@@ -20,10 +20,6 @@ std::string unit_text(const std::string& unit) {
     return unit == "1" ? "" : " " + unit;
 }
 
-const CampaignEffect& effect_of(const Problem& p, int e) {
-    return p.model->campaign.description.effects[static_cast<std::size_t>(p.model->library[static_cast<std::size_t>(e)])];
-}
-
 DiagnosisHypothesis describe(const Problem& problem, const Hypothesis& h, const Fit& fit, double probability, bool in_set) {
     DiagnosisHypothesis d;
     d.name = h.name;
@@ -35,7 +31,7 @@ DiagnosisHypothesis describe(const Problem& problem, const Hypothesis& h, const 
     d.in_set = in_set;
     const Eigen::Index p = problem.phi_lower.size();
     for (std::size_t e = 0; e < h.effects.size(); ++e) {
-        const CampaignEffect& effect = effect_of(problem, h.effects[e]);
+        const CampaignEffect& effect = problem.model->effect(h.effects[e]);
         const auto i = p + static_cast<Eigen::Index>(e);
         const auto value = [&](double theta) { return campaign::value_of_amplitude(effect, theta); };
         d.amplitudes.push_back({effect.name, fit.posterior.mean[i], fit.posterior.lower[i], fit.posterior.upper[i],
@@ -79,7 +75,7 @@ std::vector<std::string> nearest_signatures(const Attributor& attributor, const 
         with[e] = 0.7;
         const Eigen::VectorXd s = m * baseline.whitener.whiten(predict(*problem.model, problem.fitted, phi, with) - f0);
         const double cosine = s.dot(baseline.mode.residual) / std::max(1e-12, s.norm() * baseline.mode.residual.norm());
-        list.emplace_back(-cosine, fmt::format("{} (cosine {:.2f})", effect_of(problem, static_cast<int>(e)).name, cosine));
+        list.emplace_back(-cosine, fmt::format("{} (cosine {:.2f})", problem.model->effect(static_cast<int>(e)).name, cosine));
     }
     std::sort(list.begin(), list.end());
     std::vector<std::string> names;
@@ -246,14 +242,14 @@ Diagnosis diagnose(const Problem& problem, const DiagnoseOptions& options) {
     d.transfer_p = assessment.transfer_p;
     int leading = a.best_closed;
     d.verdict = judgement.verdict;
-    for (const int e : judgement.named) d.named.push_back(effect_of(problem, e).name);
+    for (const int e : judgement.named) d.named.push_back(problem.model->effect(e).name);
     if (d.verdict == Verdict::effect) leading = static_cast<int>(hypothesis_index(attributor.hypotheses(), {judgement.named[0]}));
     for (std::size_t h = 0; h < attributor.hypotheses().size(); ++h) {
         const bool in_set = std::find(a.credible_set.begin(), a.credible_set.end(), static_cast<int>(h)) != a.credible_set.end();
         d.hypotheses.push_back(describe(problem, attributor.hypotheses()[h], a.fits[h], a.probability[h], in_set));
     }
     std::stable_sort(d.hypotheses.begin(), d.hypotheses.end(), [](const auto& x, const auto& z) { return x.probability > z.probability; });
-    for (std::size_t e = 0; e < a.inclusion.size(); ++e) d.inclusion.push_back({effect_of(problem, static_cast<int>(e)).name, a.inclusion[e]});
+    for (std::size_t e = 0; e < a.inclusion.size(); ++e) d.inclusion.push_back({problem.model->effect(static_cast<int>(e)).name, a.inclusion[e]});
     d.baseline_p = a.baseline_adequacy.p;
     d.best_p = a.adequacy.p;
     d.misfit_family = a.adequacy.family;

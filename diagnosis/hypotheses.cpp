@@ -16,11 +16,9 @@ const double infinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 std::vector<Hypothesis> make_hypotheses(const Problem& problem, const Priors& priors) {
-    const auto& effects = problem.model->campaign.description.effects;
-    const auto& library = problem.model->library;
     const auto& suspects = problem.experiment.suspects;
-    const auto k = static_cast<int>(library.size());
-    const auto name = [&](int e) { return effects[static_cast<std::size_t>(library[static_cast<std::size_t>(e)])].name; };
+    const auto k = static_cast<int>(problem.model->effects());
+    const auto name = [&](int e) { return problem.model->effect(e).name; };
     const auto weight = [&](int e) { return std::find(suspects.begin(), suspects.end(), name(e)) == suspects.end() ? 1.0 : 3.0; };
     double singles = 0.0, pairs = 0.0;
     for (int a = 0; a < k; ++a) {
@@ -60,9 +58,7 @@ Attributor::Attributor(const Problem& problem, const Priors& priors) : problem_(
             Eigen::VectorXd psi(n);
             psi.head(p) = problem.phi_lower + u.head(p).cwiseProduct(problem.phi_upper - problem.phi_lower);
             for (Eigen::Index e = p; e < n; ++e) {
-                const auto& effect =
-                    problem.model->campaign.description
-                        .effects[static_cast<std::size_t>(problem.model->library[static_cast<std::size_t>(h.effects[static_cast<std::size_t>(e - p)])])];
+                const CampaignEffect& effect = problem.model->effect(h.effects[static_cast<std::size_t>(e - p)]);
                 psi[e] = effect.two_sided ? 2.0 * u[e] - 1.0 : u[e];
             }
             cloud.psi.push_back(psi);
@@ -112,9 +108,7 @@ inference::Inference Attributor::inference_of(const Hypothesis& h, const Eigen::
     problem.lower.head(p) = problem_->phi_lower;
     problem.upper.head(p) = problem_->phi_upper;
     for (Eigen::Index e = p; e < n; ++e) {
-        const auto& effect =
-            problem_->model->campaign.description
-                .effects[static_cast<std::size_t>(problem_->model->library[static_cast<std::size_t>(h.effects[static_cast<std::size_t>(e - p)])])];
+        const CampaignEffect& effect = problem_->model->effect(h.effects[static_cast<std::size_t>(e - p)]);
         problem.lower[e] = effect.two_sided ? -1.0 : 0.0;
         problem.upper[e] = 1.0;
         problem.prior_deviation[e] = priors_.amplitude;

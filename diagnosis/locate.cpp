@@ -54,7 +54,7 @@ Eigen::MatrixXd patterns_of(const Attributor& attributor, const Fit& baseline, c
         Eigen::VectorXd with = theta;
         with[e] = 0.7;
         patterns.col(1 + e) = operator_of_noise * baseline.whitener.whiten(predict(*problem.model, problem.fitted, phi, with) - f0);
-        const auto& effect = problem.model->campaign.description.effects[static_cast<std::size_t>(problem.model->library[static_cast<std::size_t>(e)])];
+        const auto& effect = problem.model->effect(static_cast<int>(e));
         one_sided.push_back(!effect.two_sided);
     }
     return patterns;

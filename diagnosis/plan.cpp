@@ -84,7 +84,6 @@ DiagnosisPlan make_plan(const Attributor& attributor, int points) {
     DiagnosisPlan plan;
     const Problem& problem = attributor.problem();
     const auto k = static_cast<int>(problem.model->effects());
-    const auto& effects = problem.model->campaign.description.effects;
     std::vector<Eigen::VectorXd> phis;
     for (int i = 0; i < points; ++i) {
         const Eigen::VectorXd u = inference::halton(static_cast<std::uint64_t>(i) + 1, static_cast<int>(problem.phi_lower.size()));
@@ -92,7 +91,7 @@ DiagnosisPlan make_plan(const Attributor& attributor, int points) {
     }
     plan.separability.assign(static_cast<std::size_t>(k), std::vector<double>(static_cast<std::size_t>(k), 0.0));
     for (int e = 0; e < k; ++e) {
-        const CampaignEffect& effect = effects[static_cast<std::size_t>(problem.model->library[static_cast<std::size_t>(e)])];
+        const CampaignEffect& effect = problem.model->effect(e);
         std::vector<double> detect, absorbed, raw;
         std::vector<std::vector<double>> apart(static_cast<std::size_t>(k));
         Eigen::VectorXd theta = Eigen::VectorXd::Zero(k);

@@ -46,6 +46,9 @@ struct Model {
     inference::Emulator emulator;
     Eigen::Index parameters() const { return campaign.parameter.cols(); }
     Eigen::Index effects() const { return static_cast<Eigen::Index>(library.size()); }
+    const CampaignEffect& effect(int e) const {  ///< of the library, by its index there
+        return campaign.description.effects[static_cast<std::size_t>(library[static_cast<std::size_t>(e)])];
+    }
 };
 
 /// Selects the runs and fits the emulator. Throws Error(bad_input) for unknown effects.

@@ -49,7 +49,7 @@ double direct_value(const Attributor& attributor, const Candidate& c, const Hypo
     for (std::size_t i = 0; i < d.parameters.size(); ++i)
         if (d.parameters[i].name == c.direct) return campaign::value_of_coordinate(d.parameters[i], phi[static_cast<Eigen::Index>(i)]);
     for (std::size_t k = 0; k < model.library.size(); ++k) {
-        const CampaignEffect& effect = d.effects[static_cast<std::size_t>(model.library[k])];
+        const CampaignEffect& effect = model.effect(static_cast<int>(k));
         if (effect.name == c.direct) return campaign::value_of_amplitude(effect, theta[static_cast<Eigen::Index>(k)]);
     }
     throw bad_input("the candidate '" + c.name + "' measures '" + c.direct + "', which is no effect of the library and no parameter", "correct the name",

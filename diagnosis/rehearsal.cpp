@@ -43,7 +43,7 @@ RehearsedCase simulate(const Attributor& attributor, std::uint64_t seed, std::ui
     Eigen::VectorXd phi = problem.phi_lower, theta = Eigen::VectorXd::Zero(problem.model->effects());
     for (Eigen::Index i = 0; i < phi.size(); ++i) phi[i] += random.uniform() * (problem.phi_upper[i] - problem.phi_lower[i]);
     for (const int e : hypotheses[truth].effects) {
-        const auto& effect = problem.model->campaign.description.effects[static_cast<std::size_t>(problem.model->library[static_cast<std::size_t>(e)])];
+        const auto& effect = problem.model->effect(e);
         theta[e] = draw_amplitude(random, 0.55, effect.two_sided);
     }
     const inference::Whitener whitener(covariance(problem, problem.fitted, phi, theta));

@@ -9,21 +9,18 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "experiments/turning_run.hpp"
 #include "meshes/makers.hpp"
 #include "meshes/read_mesh.hpp"
 #include "observables/tester.hpp"
 #include "packing/extra_walls.hpp"
 #include "packing/lying_vessel.hpp"
-#include "packing/run_figures.hpp"
-#include "packing/stage.hpp"
 
 namespace pelletlab::experiments {
 
 namespace {
 
 constexpr double full_turn = 2.0 * std::numbers::pi;
-constexpr double watch_interval = 0.001;  // [s]
-constexpr double sparse = 10.0;           // frames before the measurement are stored at this many times frame_interval
 
 double turn_time(const Case& c) {
     return full_turn / std::abs(c.tester.speed);
@@ -65,15 +62,6 @@ std::vector<solver::WallDefinition> tester_walls(const Case& c, const packing::I
     return walls;
 }
 
-void start_rotation(solver::Simulation& simulation, const Case& c) {
-    for (std::size_t wall = 0; wall < simulation.definition().walls.size(); ++wall) {
-        if (!packing::turns_with_vessel(c, simulation.definition().walls[wall].name)) continue;
-        solver::WallMotion motion = simulation.definition().walls[wall].motion;  // keeps a vibration
-        motion.axis = Vec3::UnitY(), motion.rotation_speed = c.tester.speed;
-        simulation.set_wall_motion(wall, motion);
-    }
-}
-
 /// ContactEvents are nothing but numbers: a record of all kinds for the memory of the stage.
 constexpr std::size_t record_size = sizeof(solver::ContactEvents) / sizeof(double);
 using Record = std::array<double, record_size>;
@@ -103,6 +91,7 @@ void add_all_collisions(Observables& observables, std::span<const double> memory
                         const TimeWindow& window) {
     const std::vector<solver::WallDefinition>& walls = simulation.definition().walls;
     const std::size_t kinds = 1 + walls.size(), turns = memory.size() / (kinds * record_size), pellets = simulation.bodies().size();
+    const auto is_baffle = [](const solver::WallDefinition& wall) { return wall.name == "baffle"; };
     std::vector<solver::ContactEvents> between(1), with_walls(1), with_baffle(1);  // nothing at the beginning
     for (std::size_t turn = 0; turn < turns; ++turn) {
         std::vector<solver::ContactEvents> record(kinds);
@@ -110,11 +99,11 @@ void add_all_collisions(Observables& observables, std::span<const double> memory
         between.push_back(record[0]);
         with_walls.emplace_back();
         with_baffle.emplace_back();
-        for (std::size_t w = 0; w < walls.size(); ++w) add(walls[w].name == "baffle" ? with_baffle.back() : with_walls.back(), record[1 + w]);
+        for (std::size_t w = 0; w < walls.size(); ++w) add(is_baffle(walls[w]) ? with_baffle.back() : with_walls.back(), record[1 + w]);
     }
     add_collisions(observables, "pellets", between, turn_time, pellets, window);
     add_collisions(observables, "wall", with_walls, turn_time, pellets, window);
-    if (walls.back().name == "baffle") add_collisions(observables, "baffle", with_baffle, turn_time, pellets, window);
+    if (std::any_of(walls.begin(), walls.end(), is_baffle)) add_collisions(observables, "baffle", with_baffle, turn_time, pellets, window);
 }
 
 }  // namespace
@@ -134,67 +123,31 @@ packing::RunResult run_tester(const Case& c, const packing::RunInputs& inputs, c
         simulation.add_bodies(
             packing::loose_cloud(simulation.definition().templates.front(), c.pellet.count, region, c.seed, {0.0, 0.0, -c.insertion.fall_speed}));
 
-    Trajectory measured;
-    packing::FrameSink stored;
-    bool measuring = false;
-    packing::Course course(
-        simulation,
-        [&](const Frame& frame) {
-            if (stored) stored(frame);
-            if (measuring) measured.frames.push_back(frame);
-        },
-        progress, keeping);
-    measured.head = packing::trajectory_header(c, inputs, simulation);
-    if (open_sink) stored = open_sink(measured.head);
-    if (!course.is_catching_up()) course.store(packing::capture_frame(simulation));
-    packing::settle(course, simulation, c, sparse * c.output.frame_interval);
-
-    packing::Stage spin_up;
-    spin_up.name = "spinning up";
-    spin_up.duration = c.time.spin_up;
-    spin_up.frame_interval = sparse * c.output.frame_interval;
-    spin_up.watch_interval = watch_interval;
-    if (!course.is_catching_up()) start_rotation(simulation, c);
-    course.run(spin_up);
-
+    TurningRun run(c, inputs, simulation, open_sink, progress, keeping);
+    run.spin_up(c.tester.speed);
     packing::Stage measure;
-    measure.name = "measuring";
     measure.duration = measured_time(c);
-    measure.frame_interval = c.output.frame_interval;
-    measure.watch_interval = watch_interval;
-    // What the stage remembers: its first time, its first frame, records of the contacts after each turn but the last.
+    // After what TurningRun remembers: records of the contacts after each turn but the last.
     const auto turns = static_cast<std::size_t>(std::max(1.0, whole_turns(c)));
     const double each = measure.duration / static_cast<double>(turns);
-    measure.memory = {simulation.time(), static_cast<double>(course.frames_stored())};
     measure.watch = [&](const solver::Simulation& now, std::vector<double>& memory) {
         const std::size_t taken = (memory.size() - 2) / ((1 + now.definition().walls.size()) * record_size);
         if (taken + 1 < turns && now.time() - memory[0] >= static_cast<double>(taken + 1) * each - 0.5 * c.time.step) remember(memory, now);
         return false;
     };
-    if (course.is_catching_up()) {
-        for (auto k = static_cast<std::size_t>(keeping.from->memory.at(1)); k < course.frames_stored(); ++k) measured.frames.push_back(course.stored_frame(k));
-    } else {
-        simulation.record_contact_events();
-    }
-    measuring = true;
-    course.run(measure);
+    if (!run.course().is_catching_up()) simulation.record_contact_events();
+    run.measure(measure);
     remember(measure.memory, simulation);
 
     const TimeWindow window{measure.memory.at(0), measure.memory.at(0) + measure.duration};
     const double spun = static_cast<double>(packing::steps_in(c.time.spin_up, c.time.step)) * c.time.step;
     const double turned = c.time.spin_up > 0.0 ? spun : 0.0;
-    packing::RunResult result;
-    result.observables = observables::measure_tester(measured,
-                                                     {0.5 * c.tester.diameter, c.tester.length, c.tester.baffle_height, c.tester.speed, c.tester.baffle_start,
-                                                      window.begin - turned, c.measurement.velocity_grid},
-                                                     window);
-    add_all_collisions(result.observables, std::span(measure.memory).subspan(2), simulation, each, window);
-    packing::add_contact_figures(result.observables, simulation, course.meter);
-    result.state_hash = simulation.state_hash();
-    result.steps = course.meter.steps;
-    result.wall_seconds = course.meter.wall_seconds;
-    result.pellet_steps_per_second = course.meter.pellet_steps_per_second(simulation.bodies().size());
-    return result;
+    Observables observables = observables::measure_tester(run.measured(),
+                                                          {0.5 * c.tester.diameter, c.tester.length, c.tester.baffle_height, c.tester.speed,
+                                                           c.tester.baffle_start, window.begin - turned, c.measurement.velocity_grid},
+                                                          window);
+    add_all_collisions(observables, std::span(measure.memory).subspan(2), simulation, each, window);
+    return packing::run_result(std::move(observables), simulation, run.course().meter);
 }
 
 }  // namespace pelletlab::experiments

@@ -5,31 +5,19 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "experiments/turning_run.hpp"
 #include "observables/drum.hpp"
 #include "observables/statistics.hpp"
 #include "packing/extra_walls.hpp"
 #include "packing/insertion.hpp"
 #include "packing/lying_vessel.hpp"
-#include "packing/run_figures.hpp"
-#include "packing/stage.hpp"
 
 namespace pelletlab::experiments {
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double watch_interval = 0.001;  // [s] between looks at torque and overlaps
 constexpr std::size_t torque_groups = 20;
-constexpr double sparse = 10.0;  // frames before the measurement are stored at this many times frame_interval
-
-void start_rotation(solver::Simulation& simulation, const Case& c) {
-    for (std::size_t wall = 0; wall < simulation.definition().walls.size(); ++wall)
-        if (packing::turns_with_vessel(c, simulation.definition().walls[wall].name)) {
-            solver::WallMotion motion = simulation.definition().walls[wall].motion;  // keeps a vibration
-            motion.axis = Vec3::UnitY(), motion.rotation_speed = c.drum.speed;
-            simulation.set_wall_motion(wall, motion);
-        }
-}
 
 /// Torque about the axis that keeps the drum turning, against what the pellets exert on the turning walls; positive in the sense of rotation [N m].
 double drive_torque(const solver::Simulation& simulation, const Case& c) {
@@ -75,60 +63,22 @@ packing::RunResult run_drum(const Case& c, const packing::RunInputs& inputs, con
                                                    packing::lens_region(pellet, count, c.insertion.packing_fraction, c.drum.diameter, c.drum.length), c.seed,
                                                    {0.0, 0.0, -c.insertion.fall_speed}));
 
-    Trajectory measured;
-    packing::FrameSink stored;
-    bool measuring = false;
-    packing::Course course(
-        simulation,
-        [&](const Frame& frame) {
-            if (stored) stored(frame);
-            if (measuring) measured.frames.push_back(frame);
-        },
-        progress, keeping);
-    measured.head = packing::trajectory_header(c, inputs, simulation);
-    if (open_sink) stored = open_sink(measured.head);
-    if (!course.is_catching_up()) course.store(packing::capture_frame(simulation));
-    const double sparse_interval = sparse * c.output.frame_interval;
-    packing::settle(course, simulation, c, sparse_interval);
-
-    if (!course.is_catching_up()) start_rotation(simulation, c);
-    packing::Stage spin_up;
-    spin_up.name = "spinning up";
-    spin_up.duration = c.time.spin_up;
-    spin_up.frame_interval = sparse_interval;
-    spin_up.watch_interval = watch_interval;
-    course.run(spin_up);
-
+    TurningRun run(c, inputs, simulation, open_sink, progress, keeping);
+    run.spin_up(c.drum.speed);
     packing::Stage measure;
-    measure.name = "measuring";
     measure.duration = c.time.measure;
-    measure.frame_interval = c.output.frame_interval;
-    measure.watch_interval = watch_interval;
-    // What the stage remembers: its first time, its first frame, and the torques.
-    measure.memory = {simulation.time(), static_cast<double>(course.frames_stored())};
-    measure.watch = [&](const solver::Simulation& now, std::vector<double>& memory) {
+    measure.watch = [&](const solver::Simulation& now, std::vector<double>& memory) {  // torques, after what TurningRun remembers
         memory.push_back(drive_torque(now, c));
         return false;
     };
-    if (course.is_catching_up()) {
-        const std::vector<double>& memory = keeping.from->memory;
-        for (auto k = static_cast<std::size_t>(memory.at(1)); k < course.frames_stored(); ++k) measured.frames.push_back(course.stored_frame(k));
-    }
-    measuring = true;
-    course.run(measure);
+    run.measure(measure);
+
     const TimeWindow window{measure.memory.at(0), measure.memory.at(0) + c.time.measure};
     const std::vector<double> torques(measure.memory.begin() + 2, measure.memory.end());
-    const packing::RunMeter& meter = course.meter;
-
-    packing::RunResult result;
-    result.observables = observables::measure_drum(measured, {0.5 * c.drum.diameter, c.drum.length, c.drum.speed, c.measurement.velocity_grid}, window);
-    result.observables.values.push_back(mean_torque(torques, window));
-    packing::add_contact_figures(result.observables, simulation, meter);
-    result.state_hash = simulation.state_hash();
-    result.steps = meter.steps;
-    result.wall_seconds = meter.wall_seconds;
-    result.pellet_steps_per_second = meter.pellet_steps_per_second(count);
-    return result;
+    Observables observables =
+        observables::measure_drum(run.measured(), {0.5 * c.drum.diameter, c.drum.length, c.drum.speed, c.measurement.velocity_grid}, window);
+    observables.values.push_back(mean_torque(torques, window));
+    return packing::run_result(std::move(observables), simulation, run.course().meter);
 }
 
 }  // namespace pelletlab::experiments

@@ -13,6 +13,7 @@
 #include "packing/rest.hpp"
 #include "packing/run_figures.hpp"
 #include "packing/stage.hpp"
+#include "packing/wall_motions.hpp"
 
 namespace pelletlab::experiments {
 
@@ -88,13 +89,11 @@ double release(solver::Simulation& simulation, const Case& c) {
     double top = 0.0;
     for (const Vec3& p : simulation.bodies().position) top = std::max(top, p.z());
     const double lift = top + simulation.definition().templates.front().bounding_radius + lift_beyond, time = lift / c.pile.lift_speed;
-    const auto& walls = simulation.definition().walls;
-    for (std::size_t k = 0; k < walls.size(); ++k) {
-        if (walls[k].name != "cylinder") continue;
-        solver::WallMotion motion = walls[k].motion;
-        motion.table = {{0.0, Vec3::Zero(), 0.0}, {time, lift * Vec3::UnitZ(), 0.0}};
-        simulation.set_wall_motion(k, motion);
-    }
+    packing::change_motions(
+        simulation, [](const std::string& wall) { return wall == "cylinder"; },
+        [&](solver::WallMotion& motion) {
+            motion.table = {{0.0, Vec3::Zero(), 0.0}, {time, lift * Vec3::UnitZ(), 0.0}};
+        });
     return time;
 }
 
@@ -139,16 +138,9 @@ packing::RunResult run_pile(const Case& c, const packing::RunInputs& inputs, con
             packing::loose_cloud(simulation.definition().templates.front(), c.pellet.count, rig.region, c.seed, {0.0, 0.0, -c.insertion.fall_speed}));
 
     Trajectory last;  // the pile is measured from one frame
-    packing::FrameSink stored;
-    packing::Course course(
-        simulation,
-        [&](const Frame& frame) {
-            if (stored) stored(frame);
-        },
-        progress, keeping);
+    packing::Course course(simulation, progress, keeping);
     last.head = packing::trajectory_header(c, inputs, simulation);
-    if (open_sink) stored = open_sink(last.head);
-    if (!course.is_catching_up()) course.store(packing::capture_frame(simulation));
+    course.open(open_sink ? open_sink(last.head) : packing::FrameSink(), packing::capture_frame(simulation));
     packing::settle(course, simulation, c, c.output.frame_interval, "settling in the " + c.pile.release);
 
     packing::RestRule rest(c, simulation);
@@ -172,14 +164,7 @@ packing::RunResult run_pile(const Case& c, const packing::RunInputs& inputs, con
     const bool at_rest = course.run(discharge) == packing::StageEnd::watch_ended_it;
     last.frames = {packing::capture_frame(simulation)};
 
-    packing::RunResult result;
-    result.observables = measure(last, c, at_rest, discharge.memory);
-    packing::add_contact_figures(result.observables, simulation, course.meter);
-    result.state_hash = simulation.state_hash();
-    result.steps = course.meter.steps;
-    result.wall_seconds = course.meter.wall_seconds;
-    result.pellet_steps_per_second = course.meter.pellet_steps_per_second(simulation.bodies().size());
-    return result;
+    return packing::run_result(measure(last, c, at_rest, discharge.memory), simulation, course.meter);
 }
 
 }  // namespace pelletlab::experiments

@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "core/units.hpp"
 #include "io/csv_table.hpp"
+#include "io/detail/campaign_quantities.hpp"
 #include "io/detail/toml_table.hpp"
 #include "io/files.hpp"
 
@@ -14,49 +14,6 @@ namespace pelletlab::io {
 namespace {
 
 using detail::TomlTable;
-
-void check_unit(TomlTable& table, const std::string& key, const std::string& unit) {
-    try {
-        unit_dimension(unit);
-    } catch (const Error& error) {
-        throw bad_input(error.problem(), error.remedy(), table.place(key));
-    }
-}
-
-std::string read_unit(TomlTable& table, const std::string& key, const std::string& standard) {
-    const std::string unit = table.text(key, standard);
-    check_unit(table, key, unit);
-    return unit;
-}
-
-CampaignParameter read_parameter(TomlTable& t) {
-    CampaignParameter p;
-    p.name = t.text("name");
-    p.column = t.text("column", p.name);
-    p.unit = read_unit(t, "unit", "1");
-    const auto range = t.numbers("range");
-    if (!range || range->size() != 2 || !((*range)[0] < (*range)[1])) throw t.problem("range", "must be two ascending numbers", "write range = [0.1, 1.0]");
-    p.lower = (*range)[0];
-    p.upper = (*range)[1];
-    p.logarithmic = t.choice("scale", "linear", {"linear", "log"}) == "log";
-    if (p.logarithmic && p.lower <= 0.0) throw t.problem("range", "must be positive on a logarithmic scale", "use scale = \"linear\"");
-    return p;
-}
-
-CampaignEffect read_effect(TomlTable& t) {
-    CampaignEffect e;
-    e.name = t.text("name");
-    e.title = t.text("title", e.name);
-    e.column = t.text("column", e.name);
-    e.unit = read_unit(t, "unit", "1");
-    e.baseline = t.number("baseline");
-    e.full = t.number("full");
-    if (e.full == e.baseline) throw t.problem("full", "equals the baseline", "full is the value at the end of the plausible range");
-    e.square_root = t.choice("scale", "linear", {"linear", "sqrt"}) == "sqrt";
-    e.two_sided = t.flag("two_sided", false);
-    e.effect_class = t.choice("class", "contact", {"boundary", "contact", "particle", "environment", "operation", "measurement", "numerical"});
-    return e;
-}
 
 /// The axis value in a column's name, for a pattern with one «*»: z(-0.65) under z(*) is −0.65.
 bool matches(const std::string& pattern, const std::string& column, double& value) {
@@ -72,7 +29,7 @@ bool matches(const std::string& pattern, const std::string& column, double& valu
 CampaignObservable read_observable(TomlTable& t, const CsvTable& csv) {
     CampaignObservable o;
     o.name = t.text("name");
-    o.unit = read_unit(t, "unit", "1");
+    o.unit = t.unit("unit", "1");
     o.tolerance = t.number("tolerance");
     if (o.tolerance <= 0.0)
         throw t.problem("tolerance", "must be positive", "write the difference that does not matter to you; without one every campaign is wrong somewhere");
@@ -85,14 +42,12 @@ CampaignObservable read_observable(TomlTable& t, const CsvTable& csv) {
     if (std::count(pattern.begin(), pattern.end(), '*') != 1)
         throw t.problem("columns", "needs one «*» where the axis value stands", "write columns = \"z(*)\"");
     o.axis_name = t.text("axis", "x");
-    o.axis_unit = read_unit(t, "axis_unit", "1");
-    const auto range = t.numbers("axis_range");
-    if (range && (range->size() != 2 || !((*range)[0] < (*range)[1])))
-        throw t.problem("axis_range", "must be two ascending numbers", "write axis_range = [-0.6, 0.6]");
+    o.axis_unit = t.unit("axis_unit", "1");
+    const auto range = t.range_if_any("axis_range", "write axis_range = [-0.6, 0.6]");
     std::vector<std::pair<double, std::string>> found;
     for (const std::string& column : csv.columns) {
         double value = 0.0;
-        if (matches(pattern, column, value) && (!range || (value >= (*range)[0] - 1e-9 && value <= (*range)[1] + 1e-9))) found.emplace_back(value, column);
+        if (matches(pattern, column, value) && (!range || (value >= range->first - 1e-9 && value <= range->second + 1e-9))) found.emplace_back(value, column);
     }
     if (found.size() < 2) throw t.problem("columns", "finds " + std::to_string(found.size()) + " columns of the table", "check pattern and axis_range");
     std::sort(found.begin(), found.end());
@@ -168,7 +123,7 @@ CampaignTable read_campaign(const std::filesystem::path& file) {
     if (auto regime = t.table("regime")) {
         regime_column = regime->text("column");
         campaign.regime_name = regime->text("name", regime_column);
-        if (regime->has("unit")) campaign.regime_unit = read_unit(*regime, "unit", "1");
+        if (regime->has("unit")) campaign.regime_unit = regime->unit("unit", "1");
         regime->finish();
     }
     StatusColumn status;
@@ -179,8 +134,14 @@ CampaignTable read_campaign(const std::filesystem::path& file) {
         if (status.good.empty()) throw s->problem("good", "is missing", "write good = [\"complete\"]");
         s->finish();
     }
-    t.each("parameter", [&](TomlTable& one) { campaign.parameters.push_back(read_parameter(one)); });
-    t.each("effect", [&](TomlTable& one) { campaign.effects.push_back(read_effect(one)); });
+    t.each("parameter", [&](TomlTable& one) {
+        campaign.parameters.push_back(detail::read_campaign_parameter(one));
+        campaign.parameters.back().column = one.text("column", campaign.parameters.back().name);
+    });
+    t.each("effect", [&](TomlTable& one) {
+        campaign.effects.push_back(detail::read_campaign_effect(one));
+        campaign.effects.back().column = one.text("column", campaign.effects.back().name);
+    });
     t.each("observable", [&](TomlTable& one) { campaign.observables.push_back(read_observable(one, csv)); });
     t.finish();
     if (campaign.parameters.empty()) throw bad_input("the campaign has no [[parameter]]", "name at least one calibration parameter", {file.string()});

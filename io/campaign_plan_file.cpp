@@ -1,9 +1,9 @@
 #include "io/campaign_plan_file.hpp"
 
 #include <algorithm>
+#include <tuple>
 
-#include "core/units.hpp"
-#include "io/detail/toml_table.hpp"
+#include "io/detail/campaign_quantities.hpp"
 #include "io/files.hpp"
 
 namespace pelletlab::io {
@@ -11,16 +11,6 @@ namespace pelletlab::io {
 namespace {
 
 using detail::TomlTable;
-
-std::string read_unit(TomlTable& t) {
-    const std::string unit = t.text("unit", "1");
-    try {
-        if (unit != "1") unit_dimension(unit);
-    } catch (const Error& error) {
-        throw bad_input(error.problem(), error.remedy(), t.place("unit"));
-    }
-    return unit;
-}
 
 std::vector<std::string> read_keys(TomlTable& t) {
     const auto keys = t.texts("keys");
@@ -53,33 +43,13 @@ CampaignPlan read_campaign_plan(const std::filesystem::path& file) {
         plan.rigs.push_back(rig);
     });
     t.each("parameter", [&](TomlTable& one) {
-        CampaignParameter p;
-        p.name = p.column = one.text("name");
-        refuse_known(one, p.name, names);
-        p.unit = read_unit(one);
-        const auto range = one.numbers("range");
-        if (!range || range->size() != 2 || !((*range)[0] < (*range)[1]))
-            throw one.problem("range", "must be two ascending numbers", "write range = [0.1, 1.0]");
-        p.lower = (*range)[0];
-        p.upper = (*range)[1];
-        p.logarithmic = one.choice("scale", "linear", {"linear", "log"}) == "log";
-        if (p.logarithmic && p.lower <= 0.0) throw one.problem("range", "must be positive on a logarithmic scale", "use scale = \"linear\"");
-        plan.parameters.push_back(p);
+        plan.parameters.push_back(detail::read_campaign_parameter(one));
+        refuse_known(one, plan.parameters.back().name, names);
         plan.parameter_keys.push_back(read_keys(one));
     });
     t.each("effect", [&](TomlTable& one) {
-        CampaignEffect e;
-        e.name = e.column = one.text("name");
-        refuse_known(one, e.name, names);
-        e.title = one.text("title", e.name);
-        e.unit = read_unit(one);
-        e.baseline = one.number("baseline");
-        e.full = one.number("full");
-        if (e.full == e.baseline) throw one.problem("full", "equals the baseline", "full is the value at the end of the plausible range");
-        e.square_root = one.choice("scale", "linear", {"linear", "sqrt"}) == "sqrt";
-        e.two_sided = one.flag("two_sided", false);
-        e.effect_class = one.choice("class", "contact", {"boundary", "contact", "particle", "environment", "operation", "measurement", "numerical"});
-        plan.effects.push_back(e);
+        plan.effects.push_back(detail::read_campaign_effect(one));
+        refuse_known(one, plan.effects.back().name, names);
         plan.effect_keys.push_back(read_keys(one));
     });
     t.each("observable", [&](TomlTable& one) {
@@ -88,12 +58,7 @@ CampaignPlan read_campaign_plan(const std::filesystem::path& file) {
         o.tolerance = one.number("tolerance");
         if (o.tolerance <= 0.0)
             throw one.problem("tolerance", "must be positive", "write the difference that does not matter to you, in the observable's unit");
-        if (const auto range = one.numbers("axis_range")) {
-            if (range->size() != 2 || !((*range)[0] < (*range)[1]))
-                throw one.problem("axis_range", "must be two ascending numbers", "write axis_range = [-30, 30]");
-            o.axis_lower = (*range)[0];
-            o.axis_upper = (*range)[1];
-        }
+        if (const auto range = one.range_if_any("axis_range", "write axis_range = [-30, 30]")) std::tie(o.axis_lower, o.axis_upper) = *range;
         plan.observables.push_back(o);
     });
     if (auto design = t.table("design")) {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
-#include "core/units.hpp"
 #include "io/campaign_file.hpp"
 #include "io/csv_table.hpp"
 #include "io/detail/toml_table.hpp"
@@ -12,16 +12,6 @@ namespace pelletlab::io {
 namespace {
 
 using detail::TomlTable;
-
-std::string read_unit(TomlTable& t, const std::string& key, const std::string& standard) {
-    const std::string unit = t.text(key, standard);
-    try {
-        unit_dimension(unit);
-    } catch (const Error& error) {
-        throw bad_input(error.problem(), error.remedy(), t.place(key));
-    }
-    return unit;
-}
 
 double positive(TomlTable& t, const std::string& key) {
     const double value = t.number(key);
@@ -47,18 +37,16 @@ void read_profile(TomlTable& t, Measurement& m, const std::filesystem::path& fol
     if (!std::filesystem::exists(file, ignored)) throw t.problem("data", "names a file that does not exist: " + file.string(), "correct the path");
     const CsvTable csv = read_csv(file);
     const std::size_t axis = csv.column(t.text("axis_column")), value = csv.column(t.text("value_column"));
-    m.axis_unit = read_unit(t, "axis_unit", "1");
+    m.axis_unit = t.unit("axis_unit", "1");
     const bool has_column = t.has("uncertainty_column");
     const std::size_t spread = has_column ? csv.column(t.text("uncertainty_column")) : 0;
     const double common = has_column ? 0.0 : t.has("uncertainty") ? positive(t, "uncertainty") : throw no_uncertainty(t, m.name);
-    const auto range = t.numbers("axis_range");
-    if (range && (range->size() != 2 || !((*range)[0] < (*range)[1])))
-        throw t.problem("axis_range", "must be two ascending numbers", "write axis_range = [-0.6, 0.6]");
+    const auto range = t.range_if_any("axis_range", "write axis_range = [-0.6, 0.6]");
     std::string content;
     for (std::size_t r = 0; r < csv.fields.size(); ++r) {
         const double x = csv.number(r, axis), y = csv.number(r, value);
         if (std::isnan(x)) throw bad_input("the axis value is missing", "every point needs one", csv.place(r, axis));
-        if (std::isnan(y) || (range && (x < (*range)[0] - 1e-9 || x > (*range)[1] + 1e-9))) continue;
+        if (std::isnan(y) || (range && (x < range->first - 1e-9 || x > range->second + 1e-9))) continue;
         const double u = has_column ? csv.number(r, spread) : common;
         if (!(u > 0.0)) throw bad_input("the uncertainty is missing or not positive", "every point needs one", csv.place(r, spread));
         if (!m.axis.empty() && x <= m.axis.back()) throw bad_input("the axis does not ascend", "sort the rows by the axis", csv.place(r, axis));
@@ -77,7 +65,7 @@ Measurement read_measurement(TomlTable& t, const std::filesystem::path& folder) 
     m.observable = t.text("observable");
     m.regime = t.text("regime", "");
     m.name = t.text("name", m.observable + (m.regime.empty() ? "" : " " + m.regime));
-    m.unit = read_unit(t, "unit", "1");
+    m.unit = t.unit("unit", "1");
     m.instrument = t.text("instrument", "");
     m.repeats = t.whole("repeats", 1, 1, 1000000);
     m.offset_uncertainty = t.number("offset_uncertainty", 0.0);
@@ -108,11 +96,7 @@ CalibrationParameter read_parameter(TomlTable& t) {
         p.fixed = true;
         return p;
     }
-    const auto range = t.numbers("range");
-    if (!range || range->size() != 2 || !((*range)[0] < (*range)[1]))
-        throw t.problem("range", "must be two ascending numbers", "write range = [0.1, 1.0], or value = 0.5 for a known parameter");
-    p.lower = (*range)[0];
-    p.upper = (*range)[1];
+    std::tie(p.lower, p.upper) = t.range("range", "write range = [0.1, 1.0], or value = 0.5 for a known parameter");
     return p;
 }
 
@@ -165,11 +149,7 @@ Experiment read_experiment(const std::filesystem::path& file) {
         Region r;
         r.observable = one.text("observable");
         r.name = one.text("name");
-        const auto range = one.numbers("range");
-        if (!range || range->size() != 2 || !((*range)[0] < (*range)[1]))
-            throw one.problem("range", "must be two ascending numbers", "write range = [-0.6, -0.3]");
-        r.lower = (*range)[0];
-        r.upper = (*range)[1];
+        std::tie(r.lower, r.upper) = one.range("range", "write range = [-0.6, -0.3]");
         e.regions.push_back(r);
     });
     t.each("candidate", [&](TomlTable& one) { e.candidates.push_back(read_candidate(one)); });

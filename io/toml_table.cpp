@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/units.hpp"
+
 namespace pelletlab::io::detail {
 
 namespace {
@@ -112,6 +114,29 @@ std::optional<std::vector<double>> TomlTable::numbers(const std::string& key) {
         list.push_back(*value);
     }
     return list;
+}
+
+std::string TomlTable::unit(const std::string& key, const std::string& standard) {
+    const std::string unit = text(key, standard);
+    try {
+        unit_dimension(unit);
+    } catch (const Error& error) {
+        throw bad_input(error.problem(), error.remedy(), place(key));
+    }
+    return unit;
+}
+
+std::optional<std::pair<double, double>> TomlTable::range_if_any(const std::string& key, const std::string& remedy) {
+    const auto values = numbers(key);
+    if (!values) return std::nullopt;
+    if (values->size() != 2 || !((*values)[0] < (*values)[1])) throw problem(key, "must be two ascending numbers", remedy);
+    return std::pair{(*values)[0], (*values)[1]};
+}
+
+std::pair<double, double> TomlTable::range(const std::string& key, const std::string& remedy) {
+    const auto found = range_if_any(key, remedy);
+    if (!found) throw problem(key, "must be two ascending numbers", remedy);
+    return *found;
 }
 
 std::optional<TomlTable> TomlTable::table(const std::string& key) {

@@ -53,7 +53,7 @@ Observables measure_lying_bed(const FrameSource& trajectory, const LyingGeometry
         bodies.push_back(body);
         volume += v;
         moment += v * p.z();
-        diameter += std::cbrt(6.0 * v / std::numbers::pi);
+        diameter += equivalent_diameter(v);
     }
     if (bodies.empty() || !(volume > 0.0)) throw bad_input("no pellet lies inside the vessel", "check its radius and length against the trajectory");
     diameter /= static_cast<double>(bodies.size());

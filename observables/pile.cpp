@@ -45,7 +45,7 @@ Pile pile_of(const FrameSource& trajectory, const PileGeometry& geometry) {
         pile.bodies.push_back(body);
         pile.radius.push_back(std::hypot(p.x(), p.y()));
         pile.turn.push_back(std::atan2(p.y(), p.x()));
-        pile.diameter += std::cbrt(6.0 * volume / std::numbers::pi);
+        pile.diameter += equivalent_diameter(volume);
         pile.volume += volume;
     }
     if (pile.bodies.empty()) throw bad_input("no pellet lies on the plate", "check the height of the plate and the ceiling against the trajectory");

@@ -29,14 +29,14 @@ std::string percent(double share) {
     return fmt::format("{:.1f} %", 100.0 * share);
 }
 
-}  // namespace
-
-std::string words_of(const inference::MeanDifference& d, const inference::Equivalence& e, Agreement agreement, double reference, int needed,
-                     const std::string& subject) {
+/// The verdict with size and interval in percent of the second bed.
+std::string words_of(const BedComparison& c, int repeats_needed, const std::string& subject) {
+    const inference::MeanDifference& d = c.difference;
+    const double reference = c.second_height.mean;
     const std::string size = fmt::format("{} {} ({:.1f} to {:.1f} %)", percent(std::abs(d.value) / reference), d.value < 0.0 ? "lower" : "higher",
                                          100.0 * d.lower / reference, 100.0 * d.upper / reference);
-    const std::string margin = percent(e.margin / reference);
-    switch (agreement) {
+    const std::string margin = percent(c.equivalence.margin / reference);
+    switch (c.agreement) {
         case Agreement::equivalent:
             return fmt::format("{} agrees within {}: {}", subject, margin, size);
         case Agreement::differs:
@@ -44,10 +44,21 @@ std::string words_of(const inference::MeanDifference& d, const inference::Equiva
         case Agreement::undecided:
             break;
     }
-    return fmt::format(
-        "{} cannot be told apart from a match within {}, nor from a miss: {}; {}", subject, margin, size,
-        needed > 0 ? fmt::format("about {} repeats on each side would tell", needed) : "it lies at the margin's edge, where no number of repeats would tell");
+    return fmt::format("{} cannot be told apart from a match within {}, nor from a miss: {}; {}", subject, margin, size,
+                       repeats_needed > 0 ? fmt::format("about {} repeats on each side would tell", repeats_needed)
+                                          : "it lies at the margin's edge, where no number of repeats would tell");
 }
+
+/// Judges c.first_height against c.second_height.
+BedComparison judged(BedComparison c, const ComparisonSettings& settings, const std::string& subject) {
+    c.difference = inference::mean_difference(c.first_height, c.second_height, 1.0 - settings.level);
+    c.equivalence = inference::test_equivalence(c.difference, settings.relative_margin * c.second_height.mean, settings.level);
+    c.agreement = inference::agreement_of(c.difference, c.equivalence, settings.level);
+    c.words = words_of(c, inference::repeats_needed(c.difference, c.first_height, c.second_height, c.equivalence.margin, settings.level), subject);
+    return c;
+}
+
+}  // namespace
 
 BedReport compare_beds(const std::vector<SimulatedBed>& beds, const std::vector<MeasuredFill>& fills, const ComparisonSettings& settings) {
     if (beds.empty()) throw bad_input("there is no run to compare", "name the result folders of pelletlab fill");
@@ -78,38 +89,20 @@ BedReport compare_beds(const std::vector<SimulatedBed>& beds, const std::vector<
             continue;
         }
         for (const auto& [shape, pool] : found->second) {
-            BedComparison c;
-            c.shape = shape;
-            c.pellets = pellets;
-            c.simulated = inference::repeats_of(pool.heights);
-            c.measured = {fill.height, fill.deviation, fill.repeats};
-            if (c.simulated.count < 2 && c.measured.count < 2) {
+            const BedComparison c{shape, "measured", pellets, inference::repeats_of(pool.heights), {fill.height, fill.deviation, fill.repeats}, {}, {}, {}, {}};
+            if (c.first_height.count < 2 && c.second_height.count < 2)
                 report.left_out.push_back(fmt::format("{}, {:.0f} pellets: neither side has repeats, so no interval can be given", shape, pellets));
-                continue;
-            }
-            c.difference = inference::mean_difference(c.simulated, c.measured, 1.0 - settings.level);
-            c.equivalence = inference::test_equivalence(c.difference, settings.relative_margin * c.measured.mean, settings.level);
-            c.agreement = inference::agreement_of(c.difference, c.equivalence, settings.level);
-            c.repeats_needed = inference::repeats_needed(c.difference, c.simulated, c.measured, c.equivalence.margin, settings.level);
-            c.words = words_of(c.difference, c.equivalence, c.agreement, c.measured.mean, c.repeats_needed, "the simulated height");
-            report.against_measurement.push_back(c);
+            else
+                report.against_measurement.push_back(judged(c, settings, "the simulated height"));
         }
     }
     for (const auto& [pellets, shapes] : pools)
         for (auto a = shapes.begin(); a != shapes.end(); ++a)
             for (auto b = std::next(a); b != shapes.end(); ++b) {
-                ShapeComparison c;
-                c.one = a->first;
-                c.other = b->first;
-                c.pellets = pellets;
-                const auto ra = c.first = inference::repeats_of(a->second.heights), rb = c.second = inference::repeats_of(b->second.heights);
-                if (ra.count < 2 && rb.count < 2) continue;
-                c.difference = inference::mean_difference(ra, rb, 1.0 - settings.level);
-                c.equivalence = inference::test_equivalence(c.difference, settings.relative_margin * rb.mean, settings.level);
-                c.agreement = inference::agreement_of(c.difference, c.equivalence, settings.level);
-                const int needed = inference::repeats_needed(c.difference, ra, rb, c.equivalence.margin, settings.level);
-                c.words = words_of(c.difference, c.equivalence, c.agreement, rb.mean, needed, c.one);
-                report.between_shapes.push_back(c);
+                const BedComparison c{a->first, b->first, pellets, inference::repeats_of(a->second.heights), inference::repeats_of(b->second.heights), {},
+                                      {},       {},       {}};
+                if (c.first_height.count < 2 && c.second_height.count < 2) continue;
+                report.between_shapes.push_back(judged(c, settings, c.first));
             }
     if (report.against_measurement.empty() && report.between_shapes.empty())
         throw bad_input(

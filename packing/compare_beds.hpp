@@ -35,40 +35,26 @@ struct MassCheck {
     double deviation() const { return measured / simulated - 1.0; }
 };
 
+/// Two beds of one number of pellets; the second is the reference that percentages are of.
 struct BedComparison {
-    std::string shape;
+    std::string first, second;  ///< names of shapes; `second` is «measured» for a measured fill
     double pellets = 0.0;
-    inference::Repeats simulated, measured;  ///< [m]
-    inference::MeanDifference difference;    ///< simulated − measured [m]
+    inference::Repeats first_height, second_height;  ///< [m]
+    inference::MeanDifference difference;            ///< first − second [m]
     inference::Equivalence equivalence;
     inference::Agreement agreement = inference::Agreement::undecided;
-    int repeats_needed = 0;
-    std::string words;  ///< «simulated beds are 4.1 % too low (2.9 to 5.3 %)»
-};
-
-struct ShapeComparison {
-    std::string one, other;
-    double pellets = 0.0;
-    inference::Repeats first, second;      ///< [m]
-    inference::MeanDifference difference;  ///< one − other [m]
-    inference::Equivalence equivalence;
-    inference::Agreement agreement = inference::Agreement::undecided;
-    std::string words;
+    std::string words;  ///< «the simulated height differs: 4.1 % lower (−5.3 to −2.9 %)»
 };
 
 struct BedReport {
     std::vector<MassCheck> mass_checks;  ///< one a fill that states both mass and number
     std::vector<BedComparison> against_measurement;
-    std::vector<ShapeComparison> between_shapes;
+    std::vector<BedComparison> between_shapes;
     std::vector<std::string> left_out;  ///< runs that did not come to rest, fills nobody simulated, …
 };
 
 /// Matches fills by number of pellets (by mass over the simulated pellet mass, rounded, where no number is stated), pools seeds of one shape, and judges.
 /// Throws Error(bad_input) when nothing can be compared, when runs of one fill have different tubes or the same seed twice.
 BedReport compare_beds(const std::vector<SimulatedBed>& beds, const std::vector<MeasuredFill>& fills, const ComparisonSettings& settings = {});
-
-/// «agrees», «differs» or «undecided» with size and interval, in percent of `reference`.
-std::string words_of(const inference::MeanDifference& difference, const inference::Equivalence& equivalence, inference::Agreement agreement, double reference,
-                     int repeats_needed, const std::string& subject);
 
 }  // namespace pelletlab::packing

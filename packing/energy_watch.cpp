@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -34,7 +33,7 @@ EnergyWatch::EnergyWatch(const solver::Simulation& s) {
     most_kinetic_ = kinetic(e);
     for (const std::uint32_t index : s.bodies().template_index) {
         const MassProperties& m = s.definition().templates[index].mass_properties;
-        slack_ += m.mass * s.definition().gravity.norm() * std::cbrt(6.0 * m.volume / std::numbers::pi);
+        slack_ += m.mass * s.definition().gravity.norm() * equivalent_diameter(m.volume);
     }
 }
 

@@ -94,34 +94,20 @@ RunResult fill_tube(const Case& c, const RunInputs& inputs, const std::function<
     if (!keeping.from) add_round(simulation, c, plan, 0);
 
     Trajectory last;  // the bed is measured from one frame
-    FrameSink stored;
-    Course course(
-        simulation,
-        [&](const Frame& frame) {
-            if (stored) stored(frame);
-        },
-        progress, keeping);
+    Course course(simulation, progress, keeping);
     course.pellets_in_all = c.pellet.count;
     last.head = trajectory_header(c, inputs, simulation);
     last.head.shape_of_body.assign(c.pellet.count, 0);
-    if (open_sink) stored = open_sink(last.head);
-    if (!course.is_catching_up()) course.store(capture_frame(simulation, c.pellet.count));
+    course.open(open_sink ? open_sink(last.head) : FrameSink(), capture_frame(simulation, c.pellet.count));
     const SettleStatus status = tap(course, simulation, c, fill(course, simulation, c, plan));
     last.frames = {capture_frame(simulation)};
-    const RunMeter& meter = course.meter;
 
-    RunResult result;
-    result.observables = measure(last, c);
-    if (plan.outlet > 0.0 && pellets_above(simulation, plan.outlet) > 0) result.observables.status = "funnel not empty";
-    if (status == SettleStatus::not_at_rest) result.observables.status = "not at rest";  // says more than «thin bed»
+    Observables observables = measure(last, c);
+    if (plan.outlet > 0.0 && pellets_above(simulation, plan.outlet) > 0) observables.status = "funnel not empty";
+    if (status == SettleStatus::not_at_rest) observables.status = "not at rest";  // says more than «thin bed»
     if (const double share = load_share(simulation, "floor"); std::isfinite(share))
-        result.observables.values.push_back({"floor_load_share", "1", share, not_known, {simulation.time(), simulation.time()}, "tube.floor_load"});
-    add_contact_figures(result.observables, simulation, meter);
-    result.state_hash = simulation.state_hash();
-    result.steps = meter.steps;
-    result.wall_seconds = meter.wall_seconds;
-    result.pellet_steps_per_second = meter.pellet_steps_per_second(simulation.bodies().size());
-    return result;
+        observables.values.push_back({"floor_load_share", "1", share, not_known, {simulation.time(), simulation.time()}, "tube.floor_load"});
+    return run_result(std::move(observables), simulation, course.meter);
 }
 
 }  // namespace pelletlab::packing

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "packing/extra_walls.hpp"
+#include "packing/wall_motions.hpp"
 
 namespace pelletlab::packing {
 
@@ -107,13 +108,8 @@ FillPlan plan_funnel(const Case& c, const RigidTemplate& pellet, FillPlan plan) 
 }
 
 void move_tube(solver::Simulation& simulation, const std::vector<solver::MotionRow>& table) {
-    const auto& walls = simulation.definition().walls;
-    for (std::size_t k = 0; k < walls.size(); ++k) {
-        if (walls[k].name == "funnel" || walls[k].name == "shutter") continue;
-        solver::WallMotion motion = walls[k].motion;  // keeps a vibration
-        motion.table = table;
-        simulation.set_wall_motion(k, motion);
-    }
+    change_motions(
+        simulation, [](const std::string& wall) { return wall != "funnel" && wall != "shutter"; }, [&](solver::WallMotion& motion) { motion.table = table; });
 }
 
 Stage watched(std::string name, double duration, const Case& c) {

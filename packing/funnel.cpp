@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "meshes/makers.hpp"
 #include "meshes/read_mesh.hpp"
+#include "packing/wall_motions.hpp"
 
 namespace pelletlab::packing {
 
@@ -49,13 +50,11 @@ Funnel make_funnel(const Case& c, const RigidTemplate& pellet, const std::string
 }
 
 void open_shutter(solver::Simulation& simulation, const FunnelRig& funnel) {
-    const auto& walls = simulation.definition().walls;
-    for (std::size_t k = 0; k < walls.size(); ++k) {
-        if (walls[k].name != "shutter") continue;
-        solver::WallMotion motion = walls[k].motion;  // keeps a vibration
-        motion.table = {{0.0, Vec3::Zero(), 0.0}, {funnel.shutter_time, shutter_way * funnel.outlet_diameter * Vec3::UnitX(), 0.0}};
-        simulation.set_wall_motion(k, motion);
-    }
+    change_motions(
+        simulation, [](const std::string& wall) { return wall == "shutter"; },
+        [&](solver::WallMotion& motion) {
+            motion.table = {{0.0, Vec3::Zero(), 0.0}, {funnel.shutter_time, shutter_way * funnel.outlet_diameter * Vec3::UnitX(), 0.0}};
+        });
 }
 
 std::size_t pellets_above(const solver::Simulation& simulation, double level) {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 namespace pelletlab::packing {
 
@@ -13,7 +12,7 @@ constexpr double rest_time = 0.02;  // [s] that the bed must stay quiet
 /// m g d of the pellet: the energy of a fall through its own equivalent diameter [J].
 double energy_scale(const solver::Simulation& simulation) {
     const MassProperties& mass = simulation.definition().templates.front().mass_properties;
-    const double diameter = std::cbrt(6.0 * mass.volume / std::numbers::pi);
+    const double diameter = equivalent_diameter(mass.volume);
     return mass.mass * simulation.definition().gravity.norm() * diameter;
 }
 

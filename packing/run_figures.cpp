@@ -1,5 +1,7 @@
 #include "packing/run_figures.hpp"
 
+#include <utility>
+
 #include "solver/time_step.hpp"
 
 namespace pelletlab::packing {
@@ -18,6 +20,11 @@ void add_contact_figures(Observables& observables, const solver::Simulation& sim
     add("touching_neighbours", 2.0 * static_cast<double>(contacts.touching_pairs) / pellets, {now, now}, "run.contacts");
     add("sphere_contacts_per_pellet", static_cast<double>(contacts.sphere_contacts) / pellets, {now, now}, "run.contacts");
     add("wall_contacts_per_pellet", static_cast<double>(contacts.wall_contacts) / pellets, {now, now}, "run.contacts");
+}
+
+RunResult run_result(Observables measured, const solver::Simulation& simulation, const RunMeter& meter) {
+    add_contact_figures(measured, simulation, meter);
+    return {std::move(measured), simulation.state_hash(), meter.steps, meter.wall_seconds, meter.pellet_steps_per_second(simulation.bodies().size())};
 }
 
 double load_share(const solver::Simulation& simulation, const std::string& wall) {

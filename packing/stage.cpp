@@ -68,12 +68,17 @@ std::uint64_t steps_in(double time, double step) {
     return static_cast<std::uint64_t>(std::max<long long>(1, std::llround(time / step)));
 }
 
-Course::Course(solver::Simulation& simulation, FrameSink frames, ProgressSink progress, RunKeeping keeping)
-    : simulation_(simulation), frames_(std::move(frames)), progress_(std::move(progress)), keeping_(std::move(keeping)) {
+Course::Course(solver::Simulation& simulation, ProgressSink progress, RunKeeping keeping)
+    : simulation_(simulation), progress_(std::move(progress)), keeping_(std::move(keeping)) {
     if (!keeping_.from) return;
     simulation_.restore(keeping_.from->simulation, "checkpoint");
     meter = keeping_.from->meter;
     frames_stored_ = static_cast<std::size_t>(keeping_.from->frames);
+}
+
+void Course::open(FrameSink frames, const Frame& first) {
+    frames_ = std::move(frames);
+    if (!is_catching_up()) store(first);
 }
 
 void Course::store(const Frame& frame) {

@@ -30,7 +30,10 @@ struct Stage {
 class Course {
 public:
     /// Brings the simulation (without bodies) to where `keeping.from` was, if there is such a place.
-    Course(solver::Simulation& simulation, FrameSink frames, ProgressSink progress, RunKeeping keeping = {});
+    Course(solver::Simulation& simulation, ProgressSink progress, RunKeeping keeping = {});
+
+    /// Where frames go from now on (nowhere when empty), beginning with `first`, unless the run is behind itself.
+    void open(FrameSink frames, const Frame& first);
 
     /// Steps through the stage. Frames are stored at every frame_interval after its beginning and at its end (once). Times are rounded to whole steps,
     /// intervals to at least one. Throws Error(interrupted) between two batches of steps after a signal, with a checkpoint kept. A stage that a resumed run has
@@ -41,7 +44,6 @@ public:
     /// starting walls and storing the first frame are for runs that are not behind themselves.
     bool is_catching_up() const { return keeping_.from.has_value(); }
 
-    void store(const Frame& frame);
     std::size_t frames_stored() const { return frames_stored_; }
     /// The k-th frame of the run; for those that were stored before a resumed run was stopped.
     Frame stored_frame(std::size_t k) const { return keeping_.stored_frame(k); }
@@ -50,6 +52,7 @@ public:
     std::size_t pellets_in_all = 0;  ///< of a run that releases them one after the other: what its frames have room for
 
 private:
+    void store(const Frame& frame);
     void keep(const Stage& stage, std::uint64_t done);
     solver::Simulation& simulation_;
     FrameSink frames_;

@@ -1,6 +1,8 @@
 #include "packing/voidage_correlations.hpp"
 
-#include <cmath>
+#include <numbers>
+
+#include "core/rigid_template.hpp"
 
 namespace pelletlab::packing {
 
@@ -11,9 +13,17 @@ const std::vector<VoidageCorrelation>& voidage_correlations_of_cylinders() {
     return list;
 }
 
+std::vector<CorrelatedBed> correlated_beds(double count, double pellet_volume, double tube_diameter) {
+    const double s = equivalent_diameter(pellet_volume) / tube_diameter;
+    std::vector<CorrelatedBed> beds;
+    for (const VoidageCorrelation& law : voidage_correlations_of_cylinders())
+        if (s >= law.lowest && s <= law.highest)
+            beds.push_back({law.name, law.voidage(s), bed_height_at_voidage(law.voidage(s), count, pellet_volume, tube_diameter)});
+    return beds;
+}
+
 double bed_height_at_voidage(double voidage, double count, double pellet_volume, double tube_diameter) {
-    constexpr double pi = 3.14159265358979323846;
-    return count * pellet_volume / (0.25 * pi * tube_diameter * tube_diameter * (1.0 - voidage));
+    return count * pellet_volume / (0.25 * std::numbers::pi * tube_diameter * tube_diameter * (1.0 - voidage));
 }
 
 }  // namespace pelletlab::packing

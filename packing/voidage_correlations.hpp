@@ -17,6 +17,13 @@ struct VoidageCorrelation {
 /// Benyahia & O'Neill 2005 (Part. Sci. Technol. 23, 169), full cylinders: ε = 0.373 + 1.703 / (1/s + 0.611)², 1.7 ≤ 1/s ≤ 26.3.
 const std::vector<VoidageCorrelation>& voidage_correlations_of_cylinders();
 
+/// What those that hold for a tube say of a bed of `count` pellets of `pellet_volume` [m³] in it.
+struct CorrelatedBed {
+    std::string correlation;
+    double voidage, height;  ///< [m]
+};
+std::vector<CorrelatedBed> correlated_beds(double count, double pellet_volume, double tube_diameter);
+
 /// Height of a bed of `count` pellets of volume `pellet_volume` [m³] in a tube of diameter `tube_diameter` [m] at a voidage: N V / (π D²/4 · (1 − ε)) [m].
 double bed_height_at_voidage(double voidage, double count, double pellet_volume, double tube_diameter);
 

@@ -67,7 +67,7 @@ Pressed press_plane(std::span<const Sphere> spheres, const MassProperties& mass,
 DemCost dem_cost(std::span<const Sphere> spheres, const MassProperties& mass, const DemCostSettings& settings) {
     if (spheres.empty()) throw bad_input("a clump without spheres has no cost", "give at least one sphere");
     if (!(mass.mass > 0.0) || !(mass.principal_inertia.minCoeff() > 0.0)) throw bad_input("a clump without mass has no time step", "give a density above 0");
-    const double depth = settings.press > 0.0 ? settings.press : std::cbrt(6.0 * mass.volume / std::numbers::pi) / 300.0;
+    const double depth = settings.press > 0.0 ? settings.press : equivalent_diameter(mass.volume) / 300.0;
     struct Row {
         double eigenvalue = 0.0;
         std::size_t contacts = 0, most = 0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <optional>
 #include <string>
 
@@ -137,7 +136,7 @@ StoppedFit fit_within_cost(const TriangleMesh& body, const meshes::SignedDistanc
     } else if (settings.most_contacts == 0 && settings.mode != FitMode::outside && settings.mode != FitMode::flat &&
                settings.symmetry_choice == SymmetryChoice::none) {
         // Spheres side by side on a face make it stiff and the time step short: fewer contacts there may buy more spheres than they cost in accuracy.
-        if (with.press == 0.0) with.press = cost.press > 0.0 ? cost.press : std::cbrt(6.0 * mass.volume / std::numbers::pi) / 300.0;
+        if (with.press == 0.0) with.press = cost.press > 0.0 ? cost.press : equivalent_diameter(mass.volume) / 300.0;
         for (const std::uint32_t contacts : {6u, 3u}) {
             with.most_contacts = contacts;
             const auto least = static_cast<std::uint32_t>(best->fit.spheres.size());

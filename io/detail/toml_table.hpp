@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/detail/toml_text.hpp"
@@ -25,6 +26,10 @@ public:
     std::string choice(const std::string& key, const std::string& standard, const std::vector<std::string>& allowed);
     std::vector<std::string> texts(const std::string& key);  ///< empty when absent; a single text is a list of one
     std::optional<std::vector<double>> numbers(const std::string& key);
+    std::string unit(const std::string& key, const std::string& standard);  ///< a unit that core/units.hpp knows
+    /// Two ascending numbers; `remedy` is what the error advises. The second must be there.
+    std::optional<std::pair<double, double>> range_if_any(const std::string& key, const std::string& remedy);
+    std::pair<double, double> range(const std::string& key, const std::string& remedy);
     std::optional<TomlTable> table(const std::string& key);
     /// [[key]]: calls read(table) for each.
     void each(const std::string& key, const std::function<void(TomlTable&)>& read);

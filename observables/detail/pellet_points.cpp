@@ -77,7 +77,7 @@ PelletPoints sample_pellet(const PelletShape& shape, std::size_t wanted) {
     if (!(mass.volume > 0.0)) throw bad_input("the pellet '" + shape.rigid.name + "' has no volume", "check the mass properties of its template");
     PelletPoints pellet;
     pellet.volume = mass.volume;
-    pellet.equivalent_diameter = std::cbrt(6.0 * mass.volume / pi);
+    pellet.equivalent_diameter = equivalent_diameter(mass.volume);
     const Box box = box_of(shape);
     pellet.has_axis = axisymmetric_about_z(mass.principal_inertia);
     pellet.half_height = pellet.has_axis ? 0.5 * box.sizes().z() : box.sizes().mean() / 2.0;

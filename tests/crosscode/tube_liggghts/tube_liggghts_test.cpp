@@ -143,7 +143,7 @@ Observables settle_column(const RigidTemplate& pellet, std::uint64_t seed) {
         const solver::EnergyReport e = now.energy();
         return now.time() > 0.3 && e.kinetic_translation + e.kinetic_rotation < 1e-9;
     };
-    packing::Course course(simulation, {}, {});
+    packing::Course course(simulation, {});
     course.run(fall);
 
     std::vector<Pose> poses;

@@ -12,6 +12,7 @@
 #include "meshes/read_mesh.hpp"
 #include "tests/unit/observables/documented.hpp"
 #include "tests/unit/observables/find.hpp"
+#include "tests/unit/packing/kept_run.hpp"
 #include "tests/unit/packing/small_case.hpp"
 
 using namespace pelletlab;
@@ -81,26 +82,17 @@ TEST(AttritionTester, SameBitsForOneAndTwoThreadsAndFromAnyCheckpoint) {
     c.time.measure = 0.55;
     std::vector<Frame> frames;
     std::vector<packing::RunCheckpoint> checkpoints;
-    packing::RunKeeping keeping;
-    int asked = 0;
-    keeping.due = [&] { return ++asked % 130 == 0; };
-    keeping.keep = [&](const packing::RunCheckpoint& checkpoint) { checkpoints.push_back(checkpoint); };
     set_thread_count(1);
     const auto whole = run_tester(
-        c, dumbbell_inputs(), [&](const TrajectoryHeader&) { return packing::FrameSink([&](const Frame& frame) { frames.push_back(frame); }); }, {}, keeping);
+        c, dumbbell_inputs(), [&](const TrajectoryHeader&) { return kept_run::into(frames); }, {}, kept_run::keep_every(130, checkpoints));
     set_thread_count(2);
     ASSERT_GE(checkpoints.size(), 4u);
     for (std::size_t k = 0; k <= checkpoints.size(); ++k) {
-        packing::RunKeeping resume;  // the last one begins at the beginning
-        if (k < checkpoints.size()) resume.from = checkpoints[k];
-        resume.stored_frame = [&](std::size_t frame) { return frames.at(frame); };
+        // The last one begins at the beginning.
+        const packing::RunKeeping resume = k < checkpoints.size() ? kept_run::go_on_from(checkpoints[k], frames) : packing::RunKeeping();
         const auto again = run_tester(c, dumbbell_inputs(), {}, {}, resume);
         EXPECT_EQ(again.state_hash, whole.state_hash);
-        ASSERT_EQ(again.observables.values.size(), whole.observables.values.size());
-        for (std::size_t n = 0; n < whole.observables.values.size(); ++n) {
-            const Observable &a = whole.observables.values[n], &b = again.observables.values[n];
-            EXPECT_TRUE(a.value == b.value || (std::isnan(a.value) && std::isnan(b.value))) << a.name;
-        }
+        kept_run::expect_same_values(whole.observables, again.observables);
         ASSERT_EQ(again.observables.profiles.size(), whole.observables.profiles.size());
         for (std::size_t n = 0; n < whole.observables.profiles.size(); ++n)
             EXPECT_EQ(again.observables.profiles[n].axis, whole.observables.profiles[n].axis) << whole.observables.profiles[n].name;
@@ -125,6 +117,13 @@ TEST(AttritionTester, TakesTheUsersOwnDrumAndBaffle) {
     c.tester.mesh_unit = "m";
     EXPECT_THROW(run_tester(c, dumbbell_inputs(), {}, {}), Error) << "a drum of 50 m";
     std::filesystem::remove_all(folder);
+}
+
+TEST(AttritionTester, AWallOfTheCaseDoesNotHideTheBaffle) {
+    Case c = small_tester(30);
+    c.time.measure = 0.53;
+    c.walls["plate"].point = {0.0, 0.0, -0.03};  // below the drum: touches nothing
+    EXPECT_GT(find(run_tester(c, dumbbell_inputs(), {}, {}).observables, "collision_rate_baffle").value, 0.0);
 }
 
 TEST(AttritionTester, RefusesABaffleAmongTheLoosePellets) {

@@ -14,6 +14,7 @@
 #include "meshes/read_mesh.hpp"
 #include "tests/unit/observables/documented.hpp"
 #include "tests/unit/observables/find.hpp"
+#include "tests/unit/packing/kept_run.hpp"
 #include "tests/unit/packing/small_case.hpp"
 
 using namespace pelletlab;
@@ -96,30 +97,16 @@ TEST(RotatingDrum, GoesOnFromAnyCheckpointAsIfNothingHadHappened) {
     c.time.measure = 0.1;
     std::vector<Frame> frames;
     std::vector<packing::RunCheckpoint> checkpoints;
-    packing::RunKeeping keeping;
-    int asked = 0;
-    keeping.due = [&] { return ++asked % 30 == 0; };
-    keeping.keep = [&](const packing::RunCheckpoint& checkpoint) { checkpoints.push_back(checkpoint); };
-    const auto store_in = [](std::vector<Frame>& list) {
-        return [&list](const TrajectoryHeader&) { return packing::FrameSink([&list](const Frame& frame) { list.push_back(frame); }); };
-    };
-    const auto whole = run_drum(c, dumbbell_inputs(), store_in(frames), {}, keeping);
+    const auto store_in = [](std::vector<Frame>& list) { return [&list](const TrajectoryHeader&) { return kept_run::into(list); }; };
+    const auto whole = run_drum(c, dumbbell_inputs(), store_in(frames), {}, kept_run::keep_every(30, checkpoints));
     std::set<std::size_t> stages;
     for (const packing::RunCheckpoint& checkpoint : checkpoints) {
         stages.insert(checkpoint.ended.size());
-        packing::RunKeeping resume;
-        resume.from = checkpoint;
-        resume.stored_frame = [&](std::size_t k) { return frames.at(k); };
         std::vector<Frame> again(frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(checkpoint.frames));
-        const auto result = run_drum(c, dumbbell_inputs(), store_in(again), {}, resume);
+        const auto result = run_drum(c, dumbbell_inputs(), store_in(again), {}, kept_run::go_on_from(checkpoint, frames));
         EXPECT_EQ(result.state_hash, whole.state_hash);
         EXPECT_EQ(result.observables.status, whole.observables.status);
-        ASSERT_EQ(result.observables.values.size(), whole.observables.values.size());
-        for (std::size_t k = 0; k < whole.observables.values.size(); ++k) {
-            const Observable &a = whole.observables.values[k], &b = result.observables.values[k];
-            EXPECT_TRUE(a.value == b.value || (std::isnan(a.value) && std::isnan(b.value))) << a.name;
-            EXPECT_EQ(a.window.begin, b.window.begin) << a.name;
-        }
+        kept_run::expect_same_values(whole.observables, result.observables);
         ASSERT_EQ(again.size(), frames.size());
         for (std::size_t k = 0; k < frames.size(); ++k) EXPECT_EQ(again[k].positions, frames[k].positions) << k;
     }

@@ -14,10 +14,12 @@
 #include "packing/funnel.hpp"
 #include "tests/unit/observables/documented.hpp"
 #include "tests/unit/observables/find.hpp"
+#include "tests/unit/packing/kept_run.hpp"
 #include "tests/unit/packing/small_case.hpp"
 
 using namespace pelletlab;
 using namespace pelletlab::experiments;
+using pelletlab::kept_run::into;
 using pelletlab::small_case::dumbbell_inputs;
 
 namespace {
@@ -42,10 +44,6 @@ Case small_pile(const std::string& release, std::uint32_t count = 100) {
     c.time.rest_kinetic_energy = 1e-4;
     c.output.frame_interval = 0.05;
     return c;
-}
-
-packing::FrameSink into(std::vector<Frame>& frames) {
-    return [&frames](const Frame& frame) { frames.push_back(frame); };
 }
 
 }  // namespace
@@ -126,28 +124,17 @@ TEST(Sandpile, SameBitsForOneAndTwoThreadsAndFromAnyCheckpoint) {
     c.pile.discharge_limit = 0.3;
     std::vector<Frame> frames;
     std::vector<packing::RunCheckpoint> checkpoints;
-    packing::RunKeeping keeping;
-    int asked = 0;
-    keeping.due = [&] { return ++asked % 150 == 0; };
-    keeping.keep = [&](const packing::RunCheckpoint& checkpoint) { checkpoints.push_back(checkpoint); };
     set_thread_count(1);
     const auto whole = run_pile(
-        c, dumbbell_inputs(), [&](const TrajectoryHeader&) { return into(frames); }, {}, keeping);
+        c, dumbbell_inputs(), [&](const TrajectoryHeader&) { return into(frames); }, {}, kept_run::keep_every(150, checkpoints));
     set_thread_count(2);
     EXPECT_EQ(run_pile(c, dumbbell_inputs(), {}, {}).state_hash, whole.state_hash);
     std::set<std::size_t> stages;
     for (const packing::RunCheckpoint& checkpoint : checkpoints) {
         stages.insert(checkpoint.ended.size());
-        packing::RunKeeping resume;
-        resume.from = checkpoint;
-        resume.stored_frame = [&](std::size_t k) { return frames.at(k); };
-        const auto result = run_pile(c, dumbbell_inputs(), {}, {}, resume);
+        const auto result = run_pile(c, dumbbell_inputs(), {}, {}, kept_run::go_on_from(checkpoint, frames));
         EXPECT_EQ(result.state_hash, whole.state_hash);
-        ASSERT_EQ(result.observables.values.size(), whole.observables.values.size());
-        for (std::size_t k = 0; k < whole.observables.values.size(); ++k) {
-            const Observable &a = whole.observables.values[k], &b = result.observables.values[k];
-            EXPECT_TRUE(a.value == b.value || (std::isnan(a.value) && std::isnan(b.value))) << a.name;
-        }
+        kept_run::expect_same_values(whole.observables, result.observables);
     }
     set_thread_count(0);
     EXPECT_EQ(stages.size(), 2u) << "checkpoints in settling and discharge";

@@ -23,7 +23,7 @@ TEST(CompareBeds, CloseBedsAgreeFarOnesDiffer) {
                                          bed("rough", 0.0181, 1), bed("rough", 0.0182, 2), bed("rough", 0.0180, 3)};
     const BedReport report = compare_beds(beds, {measured(0.02, 1e-4, 3)}, {0.02, 0.05});
     ASSERT_EQ(report.against_measurement.size(), 2u);
-    EXPECT_EQ(report.against_measurement[0].shape, "fine");
+    EXPECT_EQ(report.against_measurement[0].first, "fine");
     EXPECT_EQ(report.against_measurement[0].agreement, Agreement::equivalent);
     EXPECT_EQ(report.against_measurement[1].agreement, Agreement::differs);
     EXPECT_NE(report.against_measurement[1].words.find("9.5 % lower"), std::string::npos) << report.against_measurement[1].words;
@@ -57,7 +57,7 @@ TEST(CompareBeds, ARestlessBedIsLeftOutAndTold) {
     SimulatedBed restless = bed("fine", 0.05, 3);
     restless.at_rest = false;
     const BedReport report = compare_beds({bed("fine", 0.0201, 1), bed("fine", 0.0200, 2), restless}, {measured(0.02, 1e-4, 3)});
-    EXPECT_EQ(report.against_measurement[0].simulated.count, 2);
+    EXPECT_EQ(report.against_measurement[0].first_height.count, 2);
     ASSERT_EQ(report.left_out.size(), 1u);
     EXPECT_NE(report.left_out[0].find("rest"), std::string::npos);
 }

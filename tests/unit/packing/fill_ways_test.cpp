@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "kept_run.hpp"
 #include "packing/fill_tube.hpp"
 #include "small_case.hpp"
 
@@ -43,7 +44,7 @@ Filled run_of(const Case& c, const RunKeeping& keeping = {}) {
         [&](const TrajectoryHeader& header) {
             run.bodies = header.shape_of_body.size();
             run.walls = header.walls.size();
-            return FrameSink([&](const Frame& frame) { run.frames.push_back(frame); });
+            return kept_run::into(run.frames);
         },
         {}, keeping);
     return run;
@@ -169,19 +170,12 @@ TEST(FillWays, SameBitsForOneAndTwoThreadsAndFromAnyCheckpoint) {
         c.insertion.taps = 1;
         c.time.settle_limit = 0.15;
         std::vector<RunCheckpoint> checkpoints;
-        RunKeeping keeping;
-        int asked = 0;
-        keeping.due = [&] { return ++asked % 97 == 0; };
-        keeping.keep = [&](const RunCheckpoint& checkpoint) { checkpoints.push_back(checkpoint); };
         set_thread_count(1);
-        const Filled whole = run_of(c, keeping);
+        const Filled whole = run_of(c, kept_run::keep_every(97, checkpoints));
         set_thread_count(2);
         ASSERT_GE(checkpoints.size(), 2u) << way;
         for (const RunCheckpoint& checkpoint : checkpoints) {
-            RunKeeping resume;
-            resume.from = checkpoint;
-            resume.stored_frame = [&](std::size_t k) { return whole.frames.at(k); };
-            const Filled again = run_of(c, resume);
+            const Filled again = run_of(c, kept_run::go_on_from(checkpoint, whole.frames));
             EXPECT_EQ(again.result.state_hash, whole.result.state_hash) << way << " after " << checkpoint.ended.size() << " stages";
             EXPECT_EQ(again.frames.size() + checkpoint.frames, whole.frames.size()) << way;
         }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "kept_run.hpp"
 #include "packing/fill_tube.hpp"
 #include "small_case.hpp"
 
@@ -18,10 +19,7 @@ struct Stored {
 
 /// Runs the case with a checkpoint at every n-th question, into `stored`.
 RunResult run(const Case& c, Stored& stored, int every, const RunCheckpoint* from = nullptr) {
-    RunKeeping keeping;
-    int asked = 0;
-    keeping.due = [&, every] { return every > 0 && ++asked % every == 0; };
-    keeping.keep = [&](const RunCheckpoint& checkpoint) { stored.checkpoints.push_back(checkpoint); };
+    RunKeeping keeping = kept_run::keep_every(every, stored.checkpoints);
     if (from) {
         keeping.from = *from;
         stored.frames.resize(from->frames);
@@ -29,7 +27,7 @@ RunResult run(const Case& c, Stored& stored, int every, const RunCheckpoint* fro
         keeping.stored_frame = [before](std::size_t k) { return before.at(k); };
     }
     return fill_tube(
-        c, dumbbell_inputs(), [&](const TrajectoryHeader&) { return FrameSink([&](const Frame& frame) { stored.frames.push_back(frame); }); }, {}, keeping);
+        c, dumbbell_inputs(), [&](const TrajectoryHeader&) { return kept_run::into(stored.frames); }, {}, keeping);
 }
 
 TEST(Resume, AFilledTubeIsTheSameFromEveryCheckpoint) {
