@@ -212,7 +212,7 @@ void rebuild_pairs(PairList& list, Bodies& bodies, const std::vector<BodyTemplat
     list.place_of_id.resize(n);
     for (std::size_t id = 0; id < n; ++id) {
         const std::uint32_t i = list.place_of_id[id] = bodies.place_of(id);
-        for (std::uint32_t k = list.rows.first[i]; k < list.rows.first[i + 1]; ++k) list.incoming[next[list.rows.partner[k]]++] = k;
+        for (std::uint32_t k = list.rows.first[i]; k < list.rows.first[i + 1]; ++k) list.incoming[next[list.rows.partner[k]]++] = {k, list.rows.partner[k]};
     }
 
     list.spread = 0.0;

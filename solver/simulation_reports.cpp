@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/parallel.hpp"
 #include "solver/detail/state.hpp"
 #include "solver/simulation.hpp"
 
@@ -48,22 +49,69 @@ std::vector<StageTime> Simulation::stage_times() const {
     return times;
 }
 
+namespace {
+
+/// Calls visit(candidate, d, overlap) for the touching spheres of a pair; d from the first sphere's centre to the second's, world.
+template <class Visit>
+void for_each_overlap(const Simulation::State& s, const detail::PairRecord& r, const detail::PairBlock& block, const Visit& visit) {
+    const Pose pi{s.bodies.position(r.i), s.bodies.orientation(r.i)}, pj{s.bodies.position(r.j), s.bodies.orientation(r.j)};
+    const auto &ti = s.templates[r.template_i], &tj = s.templates[r.template_j];
+    for (std::size_t c = r.first; c < r.first + std::size_t{r.count}; ++c) {
+        const auto &a = ti.balls[block.candidates[c].sphere_a()], &b = tj.balls[block.candidates[c].b];
+        const Vec3 d = pj.to_world({b.x, b.y, b.z}) - pi.to_world({a.x, a.y, a.z});
+        const double overlap = a.r + b.r - d.norm();
+        if (overlap > 0.0) visit(c, d, overlap);
+    }
+}
+
+ContactSummary joined(const ContactSummary& a, const ContactSummary& b) {
+    return {a.sphere_contacts + b.sphere_contacts, a.wall_contacts + b.wall_contacts, a.touching_pairs + b.touching_pairs,
+            std::max(a.largest_overlap_ratio, b.largest_overlap_ratio)};
+}
+
+ContactSummary pair_summary(const Simulation::State& s, const detail::PairBlock& block) {
+    ContactSummary sum;
+    for (std::uint32_t k = block.pair_begin; k < block.pair_end; ++k) {
+        const detail::PairRecord& r = s.pairs.records[k];
+        const auto &ti = s.templates[r.template_i], &tj = s.templates[r.template_j];
+        const std::size_t before = sum.sphere_contacts;
+        for_each_overlap(s, r, block, [&](std::size_t c, const Vec3&, double overlap) {
+            const double radius = std::min(ti.balls[block.candidates[c].sphere_a()].r, tj.balls[block.candidates[c].b].r);
+            ++sum.sphere_contacts;
+            sum.largest_overlap_ratio = std::max(sum.largest_overlap_ratio, overlap / radius);
+        });
+        if (sum.sphere_contacts > before) ++sum.touching_pairs;
+    }
+    return sum;
+}
+
+ContactSummary wall_summary(const Simulation::State& s, const detail::Wall& wall, std::size_t begin, std::size_t end) {
+    ContactSummary sum;
+    std::vector<detail::WallOverlap> overlaps;
+    for (std::size_t i = begin; i < end; ++i) {
+        if (!wall.watches[i].near) continue;
+        const detail::BodyTemplate& t = s.templates[s.bodies.template_of(i)];
+        overlaps.clear();
+        detail::wall_overlaps(wall, s.kinematics[i], t, overlaps);
+        sum.wall_contacts += overlaps.size();
+        for (const detail::WallOverlap& o : overlaps) sum.largest_overlap_ratio = std::max(sum.largest_overlap_ratio, o.overlap / t.balls[o.sphere].r);
+    }
+    return sum;
+}
+
+}  // namespace
+
 std::vector<ContactPoint> Simulation::contact_points() const {
     const State& s = *state_;
     std::vector<ContactPoint> points;
     detail::for_each_record(s.pairs, s.bodies, [&](const detail::PairRecord& r, const detail::PairBlock& block) {
-        const Pose pi{s.bodies.position(r.i), s.bodies.orientation(r.i)}, pj{s.bodies.position(r.j), s.bodies.orientation(r.j)};
-        const auto &ti = s.templates[s.bodies.template_of(r.i)], &tj = s.templates[s.bodies.template_of(r.j)];
-        for (std::size_t c = r.first; c < r.first + std::size_t{r.count}; ++c) {
+        const Quat turn = s.bodies.orientation(r.i);
+        for_each_overlap(s, r, block, [&](std::size_t c, const Vec3& d, double overlap) {
             const detail::Candidate& candidate = block.candidates[c];
-            const auto &a = ti.balls[candidate.sphere_a()], &b = tj.balls[candidate.b];
-            const Vec3 d = pj.to_world({b.x, b.y, b.z}) - pi.to_world({a.x, a.y, a.z});
-            const double overlap = a.r + b.r - d.norm();
-            if (overlap <= 0.0) continue;
             const detail::Spring& spring = block.springs[c * s.pairs.spring_rows];
             points.push_back({s.bodies.id(r.i), candidate.sphere_a(), -1, s.bodies.id(r.j), candidate.b, d.normalized(), overlap,
-                              pi.orientation * Vec3(spring.row[0], spring.row[1], spring.row[2])});
-        }
+                              turn * Vec3(spring.row[0], spring.row[1], spring.row[2])});
+        });
     });
     std::vector<detail::WallOverlap> overlaps;
     for (std::size_t w = 0; w < s.walls.size(); ++w)
@@ -85,22 +133,18 @@ std::vector<ContactPoint> Simulation::contact_points() const {
 
 ContactSummary Simulation::contacts() const {
     const State& s = *state_;
-    ContactSummary sum;
-    std::uint64_t last_pair = UINT64_MAX;
-    for (const ContactPoint& c : contact_points()) {
-        const auto& ti = s.templates[s.bodies.template_of(s.bodies.place_of(c.body_i))];
-        double radius = ti.balls[c.sphere_i].r;
-        if (c.wall >= 0) {
-            ++sum.wall_contacts;
-        } else {
-            ++sum.sphere_contacts;
-            radius = std::min(radius, s.templates[s.bodies.template_of(s.bodies.place_of(c.body_j))].balls[c.sphere_j].r);
-            const std::uint64_t pair = (std::uint64_t{c.body_i} << 32) | c.body_j;
-            if (pair != last_pair) ++sum.touching_pairs;
-            last_pair = pair;
-        }
-        sum.largest_overlap_ratio = std::max(sum.largest_overlap_ratio, c.overlap / radius);
-    }
+    ContactSummary sum = parallel_reduce(
+        s.pairs.blocks.size(), 4, ContactSummary{},
+        [&](std::size_t begin, std::size_t end) {
+            ContactSummary part;
+            for (std::size_t block = begin; block < end; ++block) part = joined(part, pair_summary(s, s.pairs.blocks[block]));
+            return part;
+        },
+        joined);
+    for (const detail::Wall& wall : s.walls)
+        sum = joined(sum, parallel_reduce(
+                              s.bodies.size(), detail::body_grain, ContactSummary{},
+                              [&](std::size_t begin, std::size_t end) { return wall_summary(s, wall, begin, end); }, joined));
     return sum;
 }
 

@@ -247,16 +247,21 @@ void wall_contact_forces(Wall& wall, std::size_t block, std::size_t begin, std::
         const double path = bodies.path(i) + wall.path;
         WallWatch& watch = wall.watches[i];
         const BodyTemplate& t = templates[bodies.template_of(i)];
-        const double left = way_left(watch, frame, wall.record, kinematics[i]);
-        const bool moved = !(left >= 0.0);
-        if (!moved && !watch.near) {
-            wall.wake[i] = path + 0.999 * left;
-            continue;
+        bool moved = false;
+        if (!(path <= watch.settled_until)) {
+            const double left = way_left(watch, frame, wall.record, kinematics[i]);
+            moved = !(left >= 0.0);
+            watch.settled_until = path + 0.999 * left;
+            if (!moved && !watch.near) {
+                wall.wake[i] = watch.settled_until;
+                continue;
+            }
         }
         const RelativePose pose = relative_pose(wall.record, kinematics[i]);
         if (moved) {
             watch_anew(wall, watch, pose, t.bounding_radius, skins.faces, s.faces);
-            wall.wake[i] = watch.near ? always_awake : path + 0.999 * watch.allowance;
+            watch.settled_until = path + 0.999 * watch.allowance;
+            wall.wake[i] = watch.near ? always_awake : watch.settled_until;
         }
         if (!watch.near) continue;
         NearWall& near = *watch.near;

@@ -212,9 +212,15 @@ struct DriftResult {
     double furthest2;        ///< [m²], largest squared distance from the reference positions
 };
 
+/// A pair and the body that comes second in it.
+struct Incoming {
+    std::uint32_t pair, body;
+};
+
 /// All loads that bodies collect.
 struct GatherView {
-    const std::uint32_t *incoming_first, *incoming;  ///< per body: the pairs in which it is the second
+    const std::uint32_t* incoming_first;  ///< per body: where its row of `incoming` begins; one more at the end
+    const Incoming* incoming;             ///< sorted by body, then by the id of the first body
     const LoadRow *loads_j, *own_loads;
     const std::uint8_t *touching, *own_touching;
     std::size_t wall_count;
@@ -234,7 +240,7 @@ struct CandidateSearch {
     std::size_t facing;
     Candidate* found;  ///< out, sorted by (a, b)
     std::size_t capacity, count;
-    double nearest_other;  ///< [m], out: sphere pairs that are not listed are at least that far apart, or `reach`
+    double nearest_other;  ///< [m], out: sphere pairs that are not listed are at least that far apart, or `reach`, or more where nothing comes that near
 };
 
 /// Forces of all contacts of a batch; `slots` are those of the pairs.

@@ -142,62 +142,72 @@ void drift(const BodyArrays& b, std::size_t begin, std::size_t end, const DriftS
         if (lanes[lane] > result.furthest2) result.furthest2 = lanes[lane];
 }
 
-/// The rows that bodies [k, k + count) collect from other pairs lie all over the list: on their way before they are summed. Without branches: rows without a
-/// load stand for the first one.
-inline void fetch_incoming(const BodyArrays& b, const GatherView& g, std::size_t k, std::size_t count) {
-    const std::size_t first = k < b.count ? k : b.count, end = k + count < b.count ? k + count : b.count;
-    for (std::uint32_t n = g.incoming_first[first]; n < g.incoming_first[end]; ++n) {
-        const std::uint32_t pair = g.incoming[n];
-        __builtin_prefetch(g.loads_j + pair * std::size_t{g.touching[pair]});
+/// Loads of bodies that are summed together: they and the rows they collect fit into the first cache.
+inline constexpr std::size_t gathered_bodies = 8 * widest;
+
+/// Adds to sums[body − first] what bodies [first, end) feel from pairs in which they come second, by the order of the list. How many of its pairs touch nobody
+/// can foretell of a body, so there is one loop over all, without branches: what touches is picked out and set on its way into the cache, and then added.
+template <class L>
+inline void add_incoming(const GatherView& g, std::size_t first, std::size_t end, LoadRow* sums) {
+    constexpr std::uint32_t piece = 512;
+    Incoming picked[piece];
+    for (std::uint32_t from = g.incoming_first[first]; from < g.incoming_first[end];) {
+        const std::uint32_t to = g.incoming_first[end] - from > piece ? from + piece : g.incoming_first[end];
+        std::uint32_t count = 0;
+        for (std::uint32_t n = from; n < to; ++n) {
+            const Incoming in = g.incoming[n];
+            const std::size_t touches = g.touching[in.pair];
+            __builtin_prefetch(g.loads_j + in.pair * touches);
+            picked[count] = in;
+            count += static_cast<std::uint32_t>(touches);
+        }
+        for (std::uint32_t n = 0; n < count; ++n) add_row<L>(sums[picked[n].body - first].row, g.loads_j[picked[n].pair].row);
+        from = to;
     }
+}
+
+/// Sums the loads of bodies [first, end), always in this order: pairs in which the body comes first, pairs in which it comes second, walls.
+template <class L>
+inline void sum_loads(const GatherView& g, std::size_t first, std::size_t end, LoadRow* sums) {
+    using V = typename L::Real;
+    for (std::size_t i = first; i < end; ++i) {
+        const auto counts = L::greater(L::all(static_cast<double>(g.own_touching[i])), L::all(0.0));
+        for (std::size_t c = 0; c < 8; c += L::width) {
+            const V own = L::load(g.own_loads[i].row + c);
+            L::store(sums[i - first].row + c, L::choose(counts, own, L::all(0.0)));
+        }
+    }
+    add_incoming<L>(g, first, end, sums);
+    for (std::size_t w = 0; w < g.wall_count; ++w)
+        for (std::size_t i = first; i < end; ++i)
+            if (g.wall_touching[w][i]) add_row<L>(sums[i - first].row, g.wall_loads[w][i].row);
 }
 
 /// Sums gravity, pairs and walls for bodies [begin, end) and gives the second half kick (kick = Δt/2; 0 to look only).
 template <class L>
 void gather(const BodyArrays& b, const GatherView& g, std::size_t begin, std::size_t end, double kick) {
     using V = typename L::Real;
-    alignas(64) double sums[L::width][8];
-    const double* rows[L::width];
-    for (std::size_t lane = 0; lane < L::width; ++lane) rows[lane] = sums[lane];
-    const bool large = b.count > 8192;  // the loads do not stay in the cache
-    for (std::size_t k = begin; k < end; k += L::width) {
-        if (large) fetch_incoming(b, g, k + 3 * widest, L::width);
-        for (std::size_t lane = 0; lane < L::width; ++lane) {
-            V sum[8 / L::width];
-            for (V& part : sum) part = L::all(0.0);
-            const std::size_t i = k + lane;
-            if (i < b.count) {
-                // Always in this order: pairs in which the body comes first, pairs in which it comes second, walls.
-                if (g.own_touching[i])
-                    for (std::size_t c = 0; c < 8; c += L::width) sum[c / L::width] = L::load(g.own_loads[i].row + c);
-                for (std::uint32_t n = g.incoming_first[i]; n < g.incoming_first[i + 1]; ++n) {
-                    // Nobody can foretell which of the pairs touch, so there is no branch: others read the first row, which is at hand, and add nothing.
-                    const std::uint32_t pair = g.incoming[n];
-                    const std::size_t touches = g.touching[pair];
-                    const double* row = g.loads_j[pair * touches].row;
-                    const auto counts = L::greater(L::all(static_cast<double>(touches)), L::all(0.0));
-                    for (std::size_t c = 0; c < 8; c += L::width)
-                        sum[c / L::width] = L::choose(counts, sum[c / L::width] + L::load(row + c), sum[c / L::width]);
-                }
-                for (std::size_t w = 0; w < g.wall_count; ++w) {
-                    if (!g.wall_touching[w][i]) continue;
-                    for (std::size_t c = 0; c < 8; c += L::width) sum[c / L::width] = sum[c / L::width] + L::load(g.wall_loads[w][i].row + c);
-                }
+    LoadRow sums[gathered_bodies];
+    for (std::size_t first = begin; first < end; first += gathered_bodies) {
+        const std::size_t last = end - first < gathered_bodies ? end : first + gathered_bodies, real = last < b.count ? last : b.count;
+        sum_loads<L>(g, first, real, sums);
+        for (std::size_t i = real; i < last; ++i) sums[i - first] = LoadRow{};  // of the padding
+        for (std::size_t k = first; k < last; k += L::width) {
+            const double* rows[L::width];
+            for (std::size_t lane = 0; lane < L::width; ++lane) rows[lane] = sums[k - first + lane].row;
+            V s[8];
+            L::load_rows(rows, s);
+            const ConstantLanes<L> c = load_constants<L>(b, k);
+            const Triple<V> weight = Triple<V>{L::all(g.gravity[0]), L::all(g.gravity[1]), L::all(g.gravity[2])} * c.mass;
+            const Triple<V> f = Triple<V>{s[0], s[1], s[2]} + weight, t{s[3], s[4], s[5]};
+            const V push = c.inverse_mass * L::all(kick), twist = L::all(kick);
+            const V values[6] = {f.x, f.y, f.z, t.x, t.y, t.z};
+            for (int d = 0; d < 3; ++d) {
+                L::store(b.force[d] + k, values[d]);
+                L::store(b.torque[d] + k, values[3 + d]);
+                L::store(b.velocity[d] + k, L::load(b.velocity[d] + k) + values[d] * push);
+                L::store(b.momentum[d] + k, L::load(b.momentum[d] + k) + values[3 + d] * twist);
             }
-            for (std::size_t c = 0; c < 8; c += L::width) L::store(sums[lane] + c, sum[c / L::width]);
-        }
-        V s[8];
-        L::load_rows(rows, s);
-        const ConstantLanes<L> c = load_constants<L>(b, k);
-        const Triple<V> weight = Triple<V>{L::all(g.gravity[0]), L::all(g.gravity[1]), L::all(g.gravity[2])} * c.mass;
-        const Triple<V> f = Triple<V>{s[0], s[1], s[2]} + weight, t{s[3], s[4], s[5]};
-        const V push = c.inverse_mass * L::all(kick), twist = L::all(kick);
-        const V values[6] = {f.x, f.y, f.z, t.x, t.y, t.z};
-        for (int d = 0; d < 3; ++d) {
-            L::store(b.force[d] + k, values[d]);
-            L::store(b.torque[d] + k, values[3 + d]);
-            L::store(b.velocity[d] + k, L::load(b.velocity[d] + k) + values[d] * push);
-            L::store(b.momentum[d] + k, L::load(b.momentum[d] + k) + values[3 + d] * twist);
         }
     }
 }

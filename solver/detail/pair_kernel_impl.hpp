@@ -40,11 +40,10 @@ void find_poses(const PairBlockView& block, PairScratch& s) {
             const PairRecord& later = block.records[k + lane + 2 * L::width < block.count ? k + lane + 2 * L::width : block.count - 1];
             __builtin_prefetch(block.kinematics[later.j].place);
             __builtin_prefetch(block.kinematics[later.j].motion);
-            if (r.count > 0) {
-                __builtin_prefetch(block.candidates + r.first);
-                __builtin_prefetch(block.springs + r.first * block.spring_rows);
-                __builtin_prefetch(block.springs + r.first * block.spring_rows + 2);
-            }
+            // Also where a pair has none, so that nothing has to be foretold: the lists of its neighbours lie there.
+            __builtin_prefetch(block.candidates + r.first);
+            __builtin_prefetch(block.springs + r.first * block.spring_rows);
+            __builtin_prefetch(block.springs + r.first * block.spring_rows + 2);
             first[lane] = block.kinematics + r.i;
             second[lane] = block.kinematics + r.j;
             references[lane] = r.reference;
@@ -179,12 +178,8 @@ inline void find_slots(const PairBlockView& block, PairScratch& s, bool whole_in
 template <class L>
 inline void write_loads(const PairBlockView& block, PairScratch& s, const ContactBatch& b) {
     using V = typename L::Real;
-    for (std::size_t a = 0; a < s.active_count; ++a) {
-        double sum[8] = {0, 0, 0, 0, 0, 0, 0, 0};
-        for (std::uint32_t c = s.first_contact[a]; c < s.first_contact[a + 1]; ++c)
-            for (int k = 0; k < 8; ++k) sum[k] += b.result[c].row[k];
-        for (int k = 0; k < 8; ++k) s.sums[a].row[k] = sum[k];
-    }
+    for (std::size_t a = 0; a < s.active_count; ++a) s.sums[a] = LoadRow{};
+    for (std::size_t c = 0; c < b.size; ++c) add_row<L>(s.sums[b.slot[c]].row, b.result[c].row);
     for (std::size_t k = 0; k < s.active_count; k += L::width) {
         const Kinematic* first[L::width];
         const double* rows[L::width];
@@ -214,12 +209,12 @@ inline void write_loads(const PairBlockView& block, PairScratch& s, const Contac
     for (std::size_t a = 0; a < s.active_count; ++a) {  // pairs are sorted by their first body
         const std::uint32_t i = block.records[s.active[a]].i;
         double* own = block.own_loads[i].row;
-        if (block.own_touching[i]) {
-            add_row<L>(own, s.loads_i[a].row);
-        } else {
-            for (int k = 0; k < 8; ++k) own[k] = s.loads_i[a].row[k];
-            block.own_touching[i] = 1;
+        const auto further = L::greater(L::all(static_cast<double>(block.own_touching[i])), L::all(0.0));  // no branch: nobody can foretell it
+        for (std::size_t k = 0; k < 8; k += L::width) {
+            const V row = L::load(s.loads_i[a].row + k);
+            L::store(own + k, L::choose(further, L::load(own + k) + row, row));
         }
+        block.own_touching[i] = 1;
     }
 }
 

@@ -41,18 +41,19 @@ struct PairList : Pairs {
     std::vector<std::uint8_t> touching;
     LargeVector<LoadRow> own_loads;  ///< per body: what it feels from the pairs in which it is the first; valid where own_touching
     std::vector<std::uint8_t> own_touching;
-    std::vector<std::uint32_t> incoming_first, incoming;  ///< for body j: the records in which it is the second one, by the id of i
-    std::size_t body_count = 0;                           ///< at the last rebuild
-    double skin = 0.0;                                    ///< [m], of the body list
-    double pair_skin = 0.0;                               ///< [m], usual one of candidate lists
-    double hold = 0.0;                                    ///< [m], gap up to which spheres that have touched may hold together
-    std::size_t spring_rows = 1;                          ///< of history a contact
-    std::vector<LoadRow> books;                           ///< per block, where the law books; see BookColumn
-    std::vector<LoadRow> pair_books;                      ///< per pair, valid where touching; empty: nobody wants it
-    std::uint64_t rebuilds = 0, rebuilt_at = 0;           ///< rebuilt_at: step
-    double smallest_skin = 0.0, largest_skin = 0.0;       ///< [m], between which adapt_skin() may choose; both 0: it stays as it is
-    double spread = 0.0;                                  ///< mean distance in memory between the bodies of a pair
-    double ordered_spread = 0.0;                          ///< the same just after bodies were put in order
+    std::vector<std::uint32_t> incoming_first;       ///< where the row of body j in `incoming` begins; one more at the end
+    std::vector<Incoming> incoming;                  ///< records and their second body j; a row by the id of i
+    std::size_t body_count = 0;                      ///< at the last rebuild
+    double skin = 0.0;                               ///< [m], of the body list
+    double pair_skin = 0.0;                          ///< [m], usual one of candidate lists
+    double hold = 0.0;                               ///< [m], gap up to which spheres that have touched may hold together
+    std::size_t spring_rows = 1;                     ///< of history a contact
+    std::vector<LoadRow> books;                      ///< per block, where the law books; see BookColumn
+    std::vector<LoadRow> pair_books;                 ///< per pair, valid where touching; empty: nobody wants it
+    std::uint64_t rebuilds = 0, rebuilt_at = 0;      ///< rebuilt_at: step
+    double smallest_skin = 0.0, largest_skin = 0.0;  ///< [m], between which adapt_skin() may choose; both 0: it stays as it is
+    double spread = 0.0;                             ///< mean distance in memory between the bodies of a pair
+    double ordered_spread = 0.0;                     ///< the same just after bodies were put in order
 
     /// A wider skin for a list that has lasted only a few steps, a narrower one for a list that has lasted long. Results do not depend on it.
     void adapt_skin(std::uint64_t step) {

@@ -22,7 +22,7 @@ PELLETLAB_LANES inline double largest_lane(const typename L::Real& a) {
 }
 
 /// Spheres of the second body that face the first, in the frame of the first: into the search's scratch, with a full register of spheres that are nowhere
-/// behind them. Returns how low the lowest begins along n.
+/// behind them. Returns how low the lowest of all begins along n.
 template <class L, class V = typename L::Real>
 inline double find_facing(const BallColumns& balls, CandidateSearch& s, const double n[3], double apart, double highest) {
     const double* r = s.turn;
@@ -39,8 +39,8 @@ inline double find_facing(const BallColumns& balls, CandidateSearch& s, const do
         const V radius = L::load(balls.r + b);
         const V low = mx * centre.x + my * centre.y + mz * centre.z + shift - radius;
         const unsigned facing = L::bits(L::greater(bound, low));
-        if (facing == 0) continue;
         lowest = L::smaller(lowest, low);
+        if (facing == 0) continue;
         const Triple<V> c = rotate(turn, centre) + place;
         L::store_chosen(s.x + count, facing, c.x), L::store_chosen(s.y + count, facing, c.y), L::store_chosen(s.z + count, facing, c.z);
         L::store_chosen(s.r + count, facing, radius);
@@ -65,8 +65,12 @@ bool search_candidates(const BallColumns& first, const BallColumns& second, Cand
     const auto centre_of = [&](std::size_t a) { return Triple<V>{L::load(first.x + a), L::load(first.y + a), L::load(first.z + a)}; };
     V highest = L::all(-1e300);
     for (std::size_t a = 0; a < first.count; a += L::width) highest = L::larger(highest, dot(along, centre_of(a)) + L::load(first.r + a));
-    const V lowest = L::all(find_facing<L>(second, s, n, apart, largest_lane<L>(highest)));
-    if (s.facing == 0) return true;
+    const double top_of_all = largest_lane<L>(highest), low_of_all = find_facing<L>(second, s, n, apart, top_of_all);
+    if (s.facing == 0) {  // all of one body is further from all of the other than was asked for
+        s.nearest_other = low_of_all - top_of_all - 1e-12 * s.extent;
+        return true;
+    }
+    const V lowest = L::all(low_of_all);
     const V skin = L::all(s.skin), reach = L::all(s.reach), far = L::all(second.bounding_radius + s.reach);
     V nearest = reach;
     for (std::size_t block = 0; block < first.count; block += L::width) {

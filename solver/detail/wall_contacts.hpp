@@ -42,8 +42,10 @@ struct NearWall {
 
 /// Where a body is against a wall.
 struct WallWatch {
-    double place[3] = {0, 0, 0};     ///< of the centre of mass when the faces were looked up, frame of the wall
-    double allowance = -1.0;         ///< [m] that it may move before they are looked up again
+    double place[3] = {0, 0, 0};  ///< of the centre of mass when the faces were looked up, frame of the wall
+    double allowance = -1.0;      ///< [m] that it may move before they are looked up again
+    /// The allowance is not used up while the paths of body and wall (Bodies::path, Wall::path) add up to no more than this [m].
+    double settled_until = -std::numeric_limits<double>::infinity();
     std::unique_ptr<NearWall> near;  ///< only where faces are near
 };
 
