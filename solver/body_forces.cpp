@@ -25,7 +25,7 @@ void Simulation::State::compute_body_forces() {
     body_loads.resize(n);
     body_loads_act.assign(n, 1);
     body_force_power = parallel_reduce(
-        n, detail::body_grain, 0.0,
+        n, detail::sum_grain, 0.0,
         [&](std::size_t begin, std::size_t end) {
             double power = 0.0;
             for (std::size_t i = begin; i < end; ++i) {

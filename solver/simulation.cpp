@@ -176,7 +176,7 @@ void Simulation::State::fit_to_body_count() {
         wall.wake.resize(n, detail::always_awake);
         wall.loads.resize(n);
         wall.touching.resize(n, 0);
-        wall.books.assign((n + detail::body_grain - 1) / detail::body_grain, detail::LoadRow{});
+        wall.books.assign((n + detail::wall_grain - 1) / detail::wall_grain, detail::LoadRow{});
     }
     if (pairs.body_count != n || pairs.rebuilds == 0) detail::rebuild_pairs(pairs, bodies, templates);
 }

@@ -143,7 +143,7 @@ ContactSummary Simulation::contacts() const {
         joined);
     for (const detail::Wall& wall : s.walls)
         sum = joined(sum, parallel_reduce(
-                              s.bodies.size(), detail::body_grain, ContactSummary{},
+                              s.bodies.size(), detail::wall_grain, ContactSummary{},
                               [&](std::size_t begin, std::size_t end) { return wall_summary(s, wall, begin, end); }, joined));
     return sum;
 }

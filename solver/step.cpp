@@ -14,6 +14,8 @@ namespace pelletlab::solver {
 namespace {
 
 using detail::body_grain;
+using detail::sum_grain;
+using detail::wall_grain;
 
 /// Adds the time since the last lap to a stage.
 class StopWatch {
@@ -137,8 +139,8 @@ void Simulation::State::compute_pair_forces(const detail::StepClock& clock) {
 void Simulation::State::compute_wall_forces(const detail::StepClock& clock) {
     for (detail::Wall& wall : walls) {
         wall.body_books.resize(recorder.started != 0 ? bodies.size() : 0);
-        parallel_blocks(bodies.size(), body_grain, [&](std::size_t begin, std::size_t end) {
-            detail::wall_contact_forces(wall, begin / body_grain, begin, end, kinematics, bodies, templates, wall_skins, clock);
+        parallel_blocks(bodies.size(), wall_grain, [&](std::size_t begin, std::size_t end) {
+            detail::wall_contact_forces(wall, begin / wall_grain, begin, end, kinematics, bodies, templates, wall_skins, clock);
         });
     }
 }
@@ -161,7 +163,7 @@ void Simulation::State::sum_wall_loads() {
         const detail::Wall& wall = walls[w];
         const Vec3 point = wall.motion.point + wall.place.shift;  // the point on the axis moves with the translation
         wall_loads[w] = parallel_reduce(
-            bodies.size(), 4 * body_grain, WallLoad{},
+            bodies.size(), 4 * sum_grain, WallLoad{},
             [&](std::size_t begin, std::size_t end) {
                 WallLoad part;
                 for (std::size_t id = begin; id < end; ++id) {

@@ -79,7 +79,10 @@ struct Simulation::State {
 
 namespace detail {
 
-inline constexpr std::size_t body_grain = 256;  ///< fixed, so sums do not depend on the number of threads
+// Bodies that one thread takes at a time; fixed, so sums do not depend on the number of threads. Small ones, so that nobody waits long for the last.
+inline constexpr std::size_t body_grain = 64;
+inline constexpr std::size_t wall_grain = 128;  ///< wall contacts of so many bodies are computed together
+inline constexpr std::size_t sum_grain = 256;
 
 inline constexpr std::array<const char*, 6> stage_names{"drift", "walls move", "neighbours", "pairs", "wall contacts", "gather and kick"};
 
