@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "observables/detail/bed_structure.hpp"
 #include "observables/detail/pellet_points.hpp"
 #include "observables/detail/resting_plate.hpp"
 #include "observables/detail/top_surface.hpp"
@@ -86,7 +87,8 @@ double mean_axis_alignment(const Bed& bed) {
     return count > 0 ? sum / static_cast<double>(count) : not_known;
 }
 
-/// Packing fraction in slices or rings from the volume points of every pellet: pellet volume in the bin / volume of the bin.
+/// Where the pellets are clumps without a surface: packing fraction in slices or rings from the volume points of every pellet: pellet volume in the bin /
+/// volume of the bin.
 struct PackingProfiles {
     Profile axial, radial;
 };
@@ -175,8 +177,16 @@ Observables measure_tube_bed(const FrameSource& trajectory, const TubeGeometry& 
     add("mean_centroid_height", "mm", mean_centroid / millimetre, "tube.centre_of_mass");
     if (const double alignment = mean_axis_alignment(bed); std::isfinite(alignment)) add("mean_axis_alignment", "1", alignment, "tube.axis_alignment");
     add("pellets_counted", "1", count, "tube.pellets_counted");
-    PackingProfiles profiles = packing_profiles(bed, h95, mean_diameter);
-    result.profiles = {std::move(profiles.axial), std::move(profiles.radial)};
+
+    Frame grounded = frame;
+    for (Vec3& position : grounded.positions) position.z() -= tube.floor;
+    const detail::BedInstant inside{header, grounded, tube, bed.shapes, bed.bodies, mean_diameter, h95, h_grid};
+    if (!detail::add_clipped_packing(result, inside)) {
+        PackingProfiles profiles = packing_profiles(bed, h95, mean_diameter);
+        result.profiles = {std::move(profiles.axial), std::move(profiles.radial)};
+    }
+    detail::add_orientation(result, inside);
+    if (tube.overlaps) detail::add_overlaps(result, inside);
     return result;
 }
 

@@ -51,7 +51,7 @@ TEST(TubeBed, BrickWallHasTheHeightAndPackingOfABrickWall) {
     const double counted = value_of(bed, "pellets_counted");
     EXPECT_NEAR(value_of(bed, "packing_fraction_grid"), counted * 4e-9 / (pi * 400e-6 * 5e-3), 1e-9);
     EXPECT_NEAR(value_of(bed, "packing_fraction_grid"), 1.0, 0.03);
-    // Slices of bricks: full below the surface, empty above it. 0.23 mm slices cut each brick of 1 mm into few: the points leave 10 % of noise.
+    // Slices of bricks: full below the surface, empty above it. Cut exactly, but bricks that reach across the wall lose a part there: the share of one ring.
     const double packing = value_of(bed, "packing_fraction_grid");
     const Profile& axial = bed.profiles[0];
     for (std::size_t k = 0; k < axial.axis.size(); ++k) {
