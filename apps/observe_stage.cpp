@@ -81,7 +81,8 @@ void finish(const ObserveRequest& request, const char* rig, const OpenedTrajecto
     if (request.pictures && pictures) pictures(observables, stage.unfinished());
     throw_if_interrupted();
     std::vector<std::string> written;
-    for (const auto& entry : fs::directory_iterator(stage.unfinished())) written.push_back(entry.path().filename().string());
+    for (const auto& entry : fs::directory_iterator(stage.unfinished()))
+        if (entry.is_regular_file()) written.push_back(entry.path().filename().string());
     std::sort(written.begin(), written.end());
     stage.finish(key);
     for (const std::string& file : written) print_written(folder / file, file.ends_with(".png") ? "picture of a map" : "measured values, profiles and maps");

@@ -171,7 +171,7 @@ void add_orientation(Observables& result, const BedInstant& bed) {
     double near_wall = 0.0;
     for (const std::size_t body : bed.bodies) {
         const Vec3& p = bed.frame.positions[body];
-        const double distance = std::hypot(p.x(), p.y());
+        const double distance = p.head<2>().norm();
         const bool at_wall = distance >= bed.tube.radius - 0.75 * bed.diameter;
         if (at_wall) near_wall += 1.0;
         if (!bed.shapes[bed.header.shape_of_body[body]].has_axis) continue;
@@ -221,7 +221,7 @@ void add_overlaps(Observables& result, const BedInstant& bed) {
         double depth = -bed.tube.radius;
         for (const Vec3& vertex : bodies_of_shape[shape].vertices) {
             const Vec3 p = pose.to_world(vertex);
-            depth = std::max({depth, std::hypot(p.x(), p.y()) - bed.tube.radius, -p.z()});
+            depth = std::max({depth, p.head<2>().norm() - bed.tube.radius, -p.z()});
         }
         if (bodies_of_shape[shape].vertices.empty()) {
             const Sphere& sphere = header.shapes[shape].rigid.spheres.front();
@@ -232,6 +232,7 @@ void add_overlaps(Observables& result, const BedInstant& bed) {
     }
     double top = 0.0;
     for (const std::size_t body : bed.bodies) top = std::max(top, bed.frame.positions[body].z() + reach[header.shape_of_body[body]]);
+    top *= 1.1;  // above everything, polyhedra of spheres included
     for (const double v : clipped_volumes(header, bed.frame, bed.bodies, {{0.0, bed.tube.radius}, {0.0, top}})) inside += v;
     for (const double v : clipped_volumes(header, bed.frame, bed.bodies, {{0.0, 2.0 * bed.tube.radius + top}, {-top, top}})) solid += v;
     const double d = bed.diameter;

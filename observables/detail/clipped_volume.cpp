@@ -15,6 +15,18 @@ namespace {
 
 constexpr int sphere_subdivisions = 4;  // of an octahedron: 8 · 4⁴ faces
 
+double volume_of(const TriangleMesh& mesh) {
+    double volume = 0.0;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) volume += mesh.corner(f, 0).dot(mesh.corner(f, 1).cross(mesh.corner(f, 2))) / 6.0;
+    return volume;
+}
+
+/// Index of the interval of ascending `edges` that holds [low, high] whole; edges.size() when none does.
+std::size_t interval_around(const std::vector<double>& edges, double low, double high) {
+    const auto upper = static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), high) - edges.begin());
+    return upper > 0 && upper < edges.size() && edges[upper - 1] <= low ? upper - 1 : edges.size();
+}
+
 /// Octahedron, subdivided onto the sphere, then scaled to the sphere's volume.
 TriangleMesh sphere_polyhedron(double radius) {
     TriangleMesh mesh;
@@ -34,9 +46,7 @@ TriangleMesh sphere_polyhedron(double radius) {
         }
         mesh.faces = std::move(finer);
     }
-    double volume = 0.0;
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) volume += mesh.corner(f, 0).dot(mesh.corner(f, 1).cross(mesh.corner(f, 2))) / 6.0;
-    const double scale = radius * std::cbrt(4.0 / 3.0 * std::numbers::pi / volume);
+    const double scale = radius * std::cbrt(4.0 / 3.0 * std::numbers::pi / volume_of(mesh));
     for (Vec3& vertex : mesh.vertices) vertex *= scale;
     return mesh;
 }
@@ -52,9 +62,15 @@ void add_triangle_part(PlaneMoments& sum, const Vec3& p, const Vec3& q) {
     sum.y += area * (p.y() + q.y()) / 3.0;
 }
 
+PlaneMoments whole_polygon(std::span<const Vec3> polygon) {
+    PlaneMoments sum;
+    for (std::size_t k = 0; k < polygon.size(); ++k) add_triangle_part(sum, polygon[k], polygon[(k + 1) % polygon.size()]);
+    return sum;
+}
+
 void add_sector(PlaneMoments& sum, const Vec3& p, const Vec3& q, double radius) {
     const double angle = std::atan2(cross_xy(p, q), p.x() * q.x() + p.y() * q.y()), cube = radius * radius * radius / 3.0;
-    const double lp = std::hypot(p.x(), p.y()), lq = std::hypot(q.x(), q.y());
+    const double lp = p.head<2>().norm(), lq = q.head<2>().norm();
     sum.area += 0.5 * radius * radius * angle;
     sum.x += cube * (q.y() / lq - p.y() / lp);
     sum.y += cube * (p.x() / lp - q.x() / lq);
@@ -128,18 +144,17 @@ private:
         Vec3 middle = Vec3::Zero();
         for (const Vec3& p : polygon) middle += p / static_cast<double>(polygon.size());
         double size = 0.0;
-        for (const Vec3& p : polygon) size = std::max(size, std::hypot(p.x() - middle.x(), p.y() - middle.y()));
-        const double centre = std::hypot(middle.x(), middle.y()), nearest = centre - size, furthest = centre + size;
+        for (const Vec3& p : polygon) size = std::max(size, (p - middle).head<2>().squaredNorm());
+        size = std::sqrt(size);
+        const double centre = middle.head<2>().norm(), nearest = centre - size, furthest = centre + size;
         const bool beyond = slice + 1 >= cells_.heights.size();
         double inside_before = 0.0, area_before = 0.0;
-        for (std::size_t edge = 0; edge < cells_.radii.size(); ++edge) {
+        // The first circle that holds any of it: the ring inside that circle is the first with a part.
+        const auto reached = std::upper_bound(cells_.radii.begin(), cells_.radii.end(), std::max(0.0, nearest)) - cells_.radii.begin();
+        for (auto edge = static_cast<std::size_t>(reached); edge < cells_.radii.size(); ++edge) {
             const double radius = cells_.radii[edge];
-            double inside = 0.0, area = 0.0;
-            if (radius > nearest && radius > 0.0) {
-                const PlaneMoments moments = polygon_in_circle(polygon, radius);
-                area = moments.area;
-                inside = constant * moments.area + slope_x * moments.x + slope_y * moments.y;
-            }
+            const PlaneMoments moments = radius >= furthest ? whole_polygon(polygon) : polygon_in_circle(polygon, radius);
+            const double area = moments.area, inside = constant * moments.area + slope_x * moments.x + slope_y * moments.y;
             if (edge > 0) {
                 const std::size_t ring = edge - 1;
                 if (!beyond) sums_.inside[cells_.index(ring, slice)] += inside - inside_before;
@@ -175,10 +190,14 @@ bool can_be_clipped(const TrajectoryHeader& header) {
 
 std::vector<double> clipped_volumes(const TrajectoryHeader& header, const Frame& frame, std::span<const std::size_t> bodies, const TubeCells& cells) {
     std::vector<TriangleMesh> surfaces;
+    std::vector<double> whole, reach;  // volume of each, and distance of its furthest vertex
     for (const PelletShape& shape : header.shapes) {
         surfaces.push_back(shape.surface_body.empty() ? sphere_polyhedron(shape.rigid.spheres.front().radius) : shape.surface_body);
         if (shape.surface_body.empty())
             for (Vec3& vertex : surfaces.back().vertices) vertex += shape.rigid.spheres.front().centre;
+        whole.push_back(volume_of(surfaces.back()));
+        reach.push_back(0.0);
+        for (const Vec3& vertex : surfaces.back().vertices) reach.back() = std::max(reach.back(), vertex.norm());
     }
     const Sums empty{std::vector<double>(cells.cells(), 0.0), std::vector<double>(cells.rings() * (cells.slices() + 1), 0.0)};
     Sums sums = parallel_reduce(
@@ -189,7 +208,18 @@ std::vector<double> clipped_volumes(const TrajectoryHeader& header, const Frame&
             std::vector<Vec3> vertices;
             for (std::size_t k = begin; k < end; ++k) {
                 const std::size_t body = bodies[k];
-                const TriangleMesh& surface = surfaces[header.shape_of_body[body]];
+                const std::uint32_t shape = header.shape_of_body[body];
+                const TriangleMesh& surface = surfaces[shape];
+                const Vec3& centre = frame.positions[body];
+                const double out = reach[shape], distance = centre.head<2>().norm();
+                if (centre.z() + out <= cells.heights.front() || centre.z() - out >= cells.heights.back() || distance - out >= cells.radii.back()) continue;
+                // Inside one cell there is nothing to cut.
+                const std::size_t ring = interval_around(cells.radii, std::max(0.0, distance - out), distance + out);
+                const std::size_t slice = interval_around(cells.heights, centre.z() - out, centre.z() + out);
+                if (ring < cells.rings() && slice < cells.slices()) {
+                    part.inside[cells.index(ring, slice)] += whole[shape];
+                    continue;
+                }
                 const Mat3 rotation = frame.orientations[body].toRotationMatrix();
                 vertices.clear();
                 for (const Vec3& vertex : surface.vertices) vertices.push_back(rotation * vertex + frame.positions[body]);
