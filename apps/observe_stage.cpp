@@ -2,27 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <numbers>
 #include <utility>
 
-#include "apps/print_observables.hpp"
-#include "apps/stage.hpp"
+#include "apps/observe_parts.hpp"
 #include "apps/terminal.hpp"
 #include "core/error.hpp"
-#include "core/units.hpp"
-#include "io/files.hpp"
-#include "io/observables_file.hpp"
-#include "observables/bed.hpp"
 #include "observables/drum.hpp"
-#include "observables/lying_bed.hpp"
 #include "observables/pile.hpp"
 #include "observables/steady.hpp"
 #include "observables/tester.hpp"
-#include "report/pictures.hpp"
+#include "report/measured_charts.hpp"
 
 namespace pelletlab::apps {
 
@@ -30,70 +21,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-double given(const std::string& text, Dimension dimension, double otherwise) {
-    return text.empty() ? otherwise : parse_quantity(text, dimension);
-}
-
-/// A number that a run of our own knows and a table does not.
-double needed(const std::string& text, Dimension dimension, const std::optional<double>& of_case, const char* option, const char* what) {
-    if (!text.empty()) return parse_quantity(text, dimension);
-    if (!of_case) throw usage_error(fmt::format("{} is not known", what), fmt::format("give it with {}", option));
-    return *of_case;
-}
-
-const Case* case_of(const OpenedTrajectory& opened, Rig rig) {
-    if (!opened.resolved_case) return nullptr;
-    if (opened.resolved_case->rig != rig)
-        throw usage_error("this is a run of a " + rig_name(opened.resolved_case->rig),
-                          "observe it with: pelletlab observe " + rig_name(opened.resolved_case->rig));
-    return &*opened.resolved_case;
-}
-
-TimeWindow window_of(const ObserveRequest& request, const FrameSource& frames, double begin) {
-    if (frames.frame_count() == 0) throw bad_input("the trajectory holds no frame", "run the case again", {request.trajectory.file.string()});
-    TimeWindow window{given(request.from, dimension::time, begin), given(request.until, dimension::time, frames.time(frames.frame_count() - 1))};
-    if (!(window.begin <= window.end)) throw usage_error("the window ends before it begins", "give --from a time before --until");
-    return window;
-}
-
-using Pictures = std::function<void(const Observables&, const fs::path& folder)>;
-
-/// Measures unless the folder holds the result of the same file and options already; writes observables.json and pictures together.
-void finish(const ObserveRequest& request, const char* rig, const OpenedTrajectory& opened, const std::function<Observables()>& measure,
-            const Pictures& pictures) {
-    const Stopwatch stopwatch;
-    StageKey key;
-    key.verb = std::string("observe ") + rig;
-    key.settings = request.settings();
-    key.inputs = opened.inputs;
-    const fs::path folder = request.output.empty() ? fs::path("observed") : request.output;
-    if (!request.force && stage_is_finished(folder, key)) {
-        print_line(folder.string() + " is up to date (same trajectory, same options, same program)");
-        return;
-    }
-    StageFolder stage(folder);
-    Observables observables = measure();
-    throw_if_interrupted();
-    const std::uint64_t seed = observables.provenance.seed;
-    observables.provenance = provenance_of(key, seed);
-    print_observables(observables);
-    io::write_observables(observables, stage.unfinished() / "observables.json");
-    if (request.pictures && pictures) pictures(observables, stage.unfinished());
-    throw_if_interrupted();
-    std::vector<std::string> written;
-    for (const auto& entry : fs::directory_iterator(stage.unfinished()))
-        if (entry.is_regular_file()) written.push_back(entry.path().filename().string());
-    std::sort(written.begin(), written.end());
-    stage.finish(key);
-    for (const std::string& file : written) print_written(folder / file, file.ends_with(".png") ? "picture of a map" : "measured values, profiles and maps");
-    print_line("  took " + duration_text(stopwatch.seconds()));
-}
-
 /// Torque on the walls, which a trajectory does not hold: from the observables that the run itself left beside it, with the drive's power.
 void add_torque_of_run(Observables& observables, const fs::path& trajectory, double speed) {
-    const fs::path file = trajectory.parent_path() / "observables.json";
-    if (!fs::exists(file)) return;
-    for (const Observable& value : io::read_observables(file).values) {
+    const std::optional<Observables> of_run = observables_beside(trajectory);
+    if (!of_run) return;
+    for (const Observable& value : of_run->values) {
         if (value.name != "drum_torque" || value.unit != "mN*m") continue;
         observables.values.push_back(value);
         const double to_milliwatt = std::abs(speed);  // of mN m
@@ -101,13 +33,17 @@ void add_torque_of_run(Observables& observables, const fs::path& trajectory, dou
     }
 }
 
-void write_map(const Observables& observables, const char* map, double circle, const fs::path& file) {
-    for (const FieldMap& one : observables.maps)
-        if (one.name == map) {
-            report::PictureSettings settings;
-            settings.circle_diameter = circle;
-            report::write_png(report::picture_of_map(observables, map, settings), file);
-        }
+/// Collisions, which happen between frames: rates, energies and spectra that the run itself recorded, over the window that it measured.
+void add_collisions_of_run(Observables& observables, const fs::path& trajectory) {
+    const std::optional<Observables> of_run = observables_beside(trajectory);
+    if (!of_run) {
+        print_line("  collision energies are not known: no observables.json of the run lies beside " + trajectory.string());
+        return;
+    }
+    for (const Observable& value : of_run->values)
+        if (value.method == "tester.collisions") observables.values.push_back(value);
+    for (const Profile& profile : of_run->profiles)
+        if (profile.method == "tester.spectrum") observables.profiles.push_back(profile);
 }
 
 }  // namespace
@@ -121,15 +57,6 @@ std::string ObserveRequest::settings() const {
 }
 
 namespace {
-
-void observe_lying_tube(const ObserveRequest& request, const OpenedTrajectory& opened, const Case* c) {
-    const auto known = [c](double TubeRig::*member) { return c ? std::optional(c->tube.*member) : std::nullopt; };
-    observables::LyingGeometry tube;
-    tube.radius = 0.5 * needed(request.diameter, dimension::length, known(&TubeRig::diameter), "--diameter \"240 mm\"", "the tube's inner diameter");
-    tube.length = needed(request.length, dimension::length, known(&TubeRig::height), "--length \"90 mm\"", "the lying tube's inner length");
-    tube.height_grid = given(request.grid, dimension::length, c ? c->measurement.height_grid : tube.height_grid);
-    finish(request, "tube", opened, [&] { return observables::measure_lying_bed(*opened.frames, tube); }, {});
-}
 
 /// Angle of the baffle [rad] at the last frame of a run of our own: where it was put, and how far its wall has turned since.
 std::optional<double> baffle_angle_of_run(const Case* c, const FrameSource& frames) {
@@ -170,25 +97,20 @@ void observe_tester(const ObserveRequest& request) {
     tester.grid = given(request.grid, dimension::length, c ? c->measurement.velocity_grid : tester.grid);
     const TimeWindow window = window_of(request, frames, c ? end - measured_time(*c) : frames.frame_count() > 0 ? frames.time(0) : 0.0);
     finish(
-        request, "tester", opened, [&] { return observables::measure_tester(frames, tester, window); },
+        request, "tester", opened,
+        [&] {
+            Observables measured = observables::measure_tester(frames, tester, window);
+            if (c)
+                add_collisions_of_run(measured, request.trajectory.file);
+            else
+                print_line("  a table tells no collision energies: they come from forces within contacts that begin and end between its times");
+            return measured;
+        },
         [&](const Observables& measured, const fs::path& folder) {
             for (const FieldMap& map : measured.maps) write_map(measured, map.name.c_str(), 2.0 * tester.radius, folder / (map.name + ".png"));
+            for (const char* energy : {"impact_energy", "normal_dissipation", "total_dissipation"})
+                write_chart(report::collision_spectrum(measured, energy), folder / (std::string("spectrum_") + energy + ".png"));
         });
-}
-
-void observe_tube(const ObserveRequest& request) {
-    const OpenedTrajectory opened = open_for_observation(request.trajectory);
-    const Case* c = case_of(opened, Rig::tube);
-    if (c ? c->tube.lying : request.lying) {
-        observe_lying_tube(request, opened, c);
-        return;
-    }
-    observables::TubeGeometry tube;
-    tube.radius = 0.5 * needed(request.diameter, dimension::length, c ? std::optional(c->tube.diameter) : std::nullopt, "--diameter \"52 mm\"",
-                               "the tube's inner diameter");
-    tube.floor = given(request.floor, dimension::length, 0.0);
-    tube.height_grid = given(request.grid, dimension::length, c ? c->measurement.height_grid : tube.height_grid);
-    finish(request, "tube", opened, [&] { return observables::measure_tube_bed(*opened.frames, tube); }, {});
 }
 
 void observe_pile(const ObserveRequest& request) {

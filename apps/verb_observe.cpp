@@ -42,7 +42,9 @@ void add_window(CLI::App* verb, ObserveRequest& request) {
 
 void add_tube(CLI::App* observe) {
     CLI::App* verb = observe->add_subcommand(
-        "tube", "A bed in a tube, standing or lying, at the last time\n  example: pelletlab observe tube out/tube/run.h5 -o out/tube-observed");
+        "tube",
+        "A bed in a tube, standing or lying, at the last time: height, packing and porosity over radius and height, orientation, overlaps of the true\n"
+        "pellets; of a run also contacts and their forces; profiles.csv and pictures\n  example: pelletlab observe tube out/tube/run.h5 -o out/tube-observed");
     const auto request = add_common(verb, observe_tube);
     verb->add_option("--diameter", request->diameter, "Inner diameter of the tube: \"52 mm\"; a run of pelletlab knows it");
     verb->add_option("--floor", request->floor, "Height of the floor; 0 when not given");
@@ -84,7 +86,7 @@ void add_drum(CLI::App* observe) {
 void add_tester(CLI::App* observe) {
     CLI::App* verb =
         observe->add_subcommand("tester",
-                                "An attrition tester: pellet cloud, load of the baffle, release angle\n"
+                                "An attrition tester: pellet cloud, load of the baffle, release angle; of a run also the energies of collisions\n"
                                 "  example: pelletlab observe tester tracks.csv --diameter \"254 mm\" --length \"152 mm\" --baffle-height \"51 mm\" "
                                 "--speed \"40 rpm\" --baffle-angle \"0 deg\" --pellet-diameter \"3.5 mm\" --unit mm --time-unit s");
     const auto request = add_common(verb, observe_tester);

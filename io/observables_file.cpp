@@ -1,6 +1,8 @@
 #include "io/observables_file.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -257,6 +259,22 @@ Observables parse_observables(const std::string& text, const std::string& file) 
 
 void write_observables(const Observables& observables, const std::filesystem::path& file) {
     write_text(file, observables_text(observables));
+}
+
+void write_profiles(const Observables& observables, const std::filesystem::path& file) {
+    std::string text = "profile,unit,axis_name,axis_unit,axis,value,standard_error\n";
+    const auto cell = [](double value) {
+        std::array<char, 32> digits{};
+        return std::isfinite(value) ? std::string(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr) : std::string();
+    };
+    for (const Profile& profile : observables.profiles)
+        for (std::size_t k = 0; k < profile.axis.size(); ++k) {
+            const double error = k < profile.standard_error.size() ? profile.standard_error[k] : not_known;
+            for (const std::string& one : {profile.name, profile.unit, profile.axis_name, profile.axis_unit, cell(profile.axis[k]), cell(profile.value[k])})
+                text += one + ",";
+            text += cell(error) + "\n";
+        }
+    write_text(file, text);
 }
 
 Observables read_observables(const std::filesystem::path& file) {

@@ -177,6 +177,7 @@ Observables measure_tube_bed(const FrameSource& trajectory, const TubeGeometry& 
     add("mean_centroid_height", "mm", mean_centroid / millimetre, "tube.centre_of_mass");
     if (const double alignment = mean_axis_alignment(bed); std::isfinite(alignment)) add("mean_axis_alignment", "1", alignment, "tube.axis_alignment");
     add("pellets_counted", "1", count, "tube.pellets_counted");
+    add("mean_equivalent_diameter", "mm", mean_diameter / millimetre, "tube.pellets_counted");
 
     Frame grounded = frame;
     for (Vec3& position : grounded.positions) position.z() -= tube.floor;

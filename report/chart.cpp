@@ -33,12 +33,13 @@ Scale scale_of(const Chart& chart, bool horizontal) {
     scale.logarithmic = axis.logarithmic;
     double lower = std::numeric_limits<double>::infinity(), upper = -lower;
     for (const ChartSeries& series : chart.series)
-        for (const Point& p : series.points) {
-            const double value = of(p, horizontal);
+        for (std::size_t k = 0; k < series.points.size(); ++k) {
+            const double value = of(series.points[k], horizontal);
             if (!std::isfinite(value) || (axis.logarithmic && !(value > 0.0)))
                 throw bad_input("a point of the series «" + series.name + "» cannot be drawn on the axis «" + axis.label + "»");
-            lower = std::min(lower, scale.forward(value));
-            upper = std::max(upper, scale.forward(value));
+            const double error = horizontal || series.errors.empty() ? 0.0 : series.errors[k];
+            lower = std::min(lower, scale.forward(value) - error);
+            upper = std::max(upper, scale.forward(value) + error);
         }
     if (!(lower <= upper)) throw bad_input("the chart has no points");
     const double rim = upper > lower ? 0.06 * (upper - lower) : (axis.logarithmic ? 0.5 : std::max(1e-12, 0.5 * std::abs(upper)));
@@ -72,6 +73,8 @@ std::vector<Tick> ticks_of(const Scale& scale) {
 void draw_marker(Image& image, Marker marker, Point at, double size, const Srgb& colour) {
     const double half = 0.5 * size;
     switch (marker) {
+        case Marker::none:
+            break;
         case Marker::disc:
             draw_line(image, at, at, size, colour);
             break;
@@ -139,6 +142,9 @@ void draw_series(Image& image, const ChartSeries& series, const Scale& across, c
     TextStyle names = page.small;
     names.colour = series.colour;
     for (std::size_t i = 0; i < places.size(); ++i) {
+        if (!series.errors.empty())
+            draw_line(image, {places[i].x, up.pixel(series.points[i].y - series.errors[i])}, {places[i].x, up.pixel(series.points[i].y + series.errors[i])},
+                      0.6 * width, series.colour);
         draw_marker(image, series.marker, places[i], marker_size, series.colour);
         if (!series.labels.empty()) draw_text(image, places[i].x + 0.9 * marker_size, places[i].y - 0.5 * marker_size, series.labels[i], names);
     }
@@ -168,6 +174,9 @@ Image picture_of_chart(const Chart& chart, const PictureSettings& settings) {
     const detail::Page page(settings.width);
     for (const ChartSeries& series : chart.series)
         if (!series.labels.empty() && series.labels.size() != series.points.size()) throw bad_input("the series «" + series.name + "» needs one label a point");
+    for (const ChartSeries& series : chart.series)
+        if (!series.errors.empty() && (series.errors.size() != series.points.size() || chart.vertical.logarithmic))
+            throw bad_input("the series «" + series.name + "» needs one error a point, on a linear axis");
     Scale across = scale_of(chart, true), up = scale_of(chart, false);
     const std::uint32_t height = settings.width * 5 / 8;
     Image image = blank_image(settings.width, height);

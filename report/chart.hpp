@@ -9,7 +9,7 @@
 
 namespace pelletlab::report {
 
-enum class Marker { disc, ring, square, diamond, cross };
+enum class Marker { disc, ring, square, diamond, cross, none };
 
 struct ChartSeries {
     std::string name;                 ///< in the key
@@ -17,8 +17,9 @@ struct ChartSeries {
     std::vector<std::string> labels;  ///< one a point beside it, or none at all
     Srgb colour = {33, 102, 172};
     Marker marker = Marker::disc;
-    bool line = false;    ///< joins the points
-    bool dashed = false;  ///< … with a broken line
+    bool line = false;                ///< joins the points
+    bool dashed = false;              ///< … with a broken line
+    std::vector<double> errors = {};  ///< one a point, drawn as an upright bar of ± this; or none at all. Not on a logarithmic axis
 };
 
 struct ChartAxis {
@@ -36,8 +37,8 @@ struct Chart {
 /// 0 < lower < upper, both finite.
 std::vector<double> log_ticks(double lower, double upper);
 
-/// `settings.width` wide, 5 : 8. Throws Error(bad_input) without points, for coordinates that are not finite, or not positive on a logarithmic axis, and when
-/// the labels are not one a point.
+/// `settings.width` wide, 5 : 8. Throws Error(bad_input) without points, for coordinates that are not finite, or not positive on a logarithmic axis, when the
+/// labels or errors are not one a point, and for errors on a logarithmic axis.
 Image picture_of_chart(const Chart& chart, const PictureSettings& settings);
 
 }  // namespace pelletlab::report

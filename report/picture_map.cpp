@@ -44,6 +44,12 @@ struct Plot {
     double y(double b) const { return bottom - (b - lower_b) * scale; }
 };
 
+/// «distance_to_axis» → «distance to axis (mm)»
+std::string axis_label(std::string name) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name + " (mm)";
+}
+
 void draw_cells(Image& image, const FieldMap& map, const Plot& plot, ColourMap colours, const ValueRange& range) {
     for (std::size_t row = 0; row < map.rows; ++row)
         for (std::size_t column = 0; column < map.columns; ++column) {
@@ -82,9 +88,9 @@ void draw_axes(Image& image, const FieldMap& map, const Plot& plot, const detail
     }
     TextStyle names = page.text;
     names.align = Align::centre;
-    draw_text(image, 0.5 * (plot.left + plot.right), plot.bottom + tick + 4.4 * names.cap_height, map.horizontal_axis + " (mm)", names);
+    draw_text(image, 0.5 * (plot.left + plot.right), plot.bottom + tick + 4.4 * names.cap_height, axis_label(map.horizontal_axis), names);
     names.upwards = true;
-    draw_text(image, plot.left - tick - 1.5 * names.cap_height - widest, 0.5 * (plot.top + plot.bottom), map.vertical_axis + " (mm)", names);
+    draw_text(image, plot.left - tick - 1.5 * names.cap_height - widest, 0.5 * (plot.top + plot.bottom), axis_label(map.vertical_axis), names);
 }
 
 /// Mean velocity of blocks of cells, so that arrows stand at least `pitch` pixels apart.
@@ -212,7 +218,8 @@ Image picture_of_map(const Observables& observables, const std::string& map_name
     draw_axes(image, map, plot, page);
     draw_colour_bar(image, bar, bar_left, plot.top + 0.5 * (plot.bottom - plot.top - bar_height), page.bar_width, bar_height, page.text);
     const std::string name = observables.case_name.empty() ? "" : observables.case_name + ": ";
-    const std::string made = name + "mean over " + tick_text(map.window.begin, 2) + " – " + tick_text(map.window.end, 2) + " s";
+    const std::string begin = tick_text(map.window.begin, 2), end = tick_text(map.window.end, 2);
+    const std::string made = name + (map.window.begin < map.window.end ? "mean over " + begin + " – " + end + " s" : "at " + end + " s");
     draw_text(image, plot.left, page.margin + page.title.cap_height, settings.title.value_or(made), page.title);
     return image;
 }

@@ -4,14 +4,13 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <numbers>
-#include <tuple>
 #include <utility>
 
 #include "core/parallel.hpp"
 #include "observables/detail/clipped_volume.hpp"
 #include "observables/detail/convex_overlap.hpp"
+#include "observables/detail/near_pairs.hpp"
 #include "observables/statistics.hpp"
 
 namespace pelletlab::observables::detail {
@@ -61,33 +60,6 @@ Profile ring_profile(const BedInstant& bed, const char* name, const std::vector<
         profile.standard_error.push_back(n >= 5.0 ? std::sqrt(squares / (n - 1.0) / n) : not_known);
     }
     return profile;
-}
-
-/// Pairs of bodies whose bounding spheres come closer than `gap`, each once, in a fixed order.
-std::vector<std::pair<std::size_t, std::size_t>> near_pairs(const BedInstant& bed, const std::vector<double>& reach, double gap) {
-    const double cell = 2.0 * *std::max_element(reach.begin(), reach.end()) + gap;
-    using Key = std::tuple<long, long, long>;
-    const auto key = [cell](const Vec3& p) {
-        return Key{static_cast<long>(std::floor(p.x() / cell)), static_cast<long>(std::floor(p.y() / cell)), static_cast<long>(std::floor(p.z() / cell))};
-    };
-    std::map<Key, std::vector<std::size_t>> cells;
-    for (const std::size_t body : bed.bodies) cells[key(bed.frame.positions[body])].push_back(body);
-    std::vector<std::pair<std::size_t, std::size_t>> pairs;
-    for (const std::size_t a : bed.bodies) {
-        const auto [x, y, z] = key(bed.frame.positions[a]);
-        for (long dx = -1; dx <= 1; ++dx)
-            for (long dy = -1; dy <= 1; ++dy)
-                for (long dz = -1; dz <= 1; ++dz) {
-                    const auto found = cells.find(Key{x + dx, y + dy, z + dz});
-                    if (found == cells.end()) continue;
-                    for (const std::size_t b : found->second) {
-                        if (b <= a) continue;
-                        const double limit = reach[bed.header.shape_of_body[a]] + reach[bed.header.shape_of_body[b]] + gap;
-                        if ((bed.frame.positions[a] - bed.frame.positions[b]).squaredNorm() < limit * limit) pairs.emplace_back(a, b);
-                    }
-                }
-    }
-    return pairs;
 }
 
 struct PairOverlap {
@@ -245,7 +217,7 @@ void add_overlaps(Observables& result, const BedInstant& bed) {
     if (!convex || !(all_spheres || all_meshes)) return;
 
     const double gap = contact_gap * d;
-    const auto pairs = near_pairs(bed, reach, gap);
+    const auto pairs = near_pairs(header, bed.frame, bed.bodies, reach, gap);
     std::vector<PairOverlap> overlaps(pairs.size());
     parallel_for(pairs.size(), 64, [&](std::size_t k) {
         const auto [a, b] = pairs[k];

@@ -91,7 +91,29 @@ class Observe(PelletlabTest):
         self.assertAlmostEqual(measured["turns_measured"], again["turns_measured"], delta=1e-4)  # a step more or less
         for name in ("baffle_load_largest", "release_angle", "loose_share_180", "centre_x_090"):
             self.assertAlmostEqual(measured[name], again[name], delta=1e-6 * abs(measured[name]), msg=name)  # the angle comes from the stored wall
+        for name in ("collision_rate_pellets", "dissipated_power_wall"):
+            self.assertEqual(measured[name], again[name], name)  # recorded by the run, which left them beside its trajectory
+        self.assertIn("spectrum_impact_energy.png", self.everything_below("seen"))
         self.fails(USAGE, "observe", "drum", "run/run.h5", says="tester")
+
+    def test_contacts_of_a_run_are_those_of_its_solver(self):
+        bed = ["--set", "pellet.count=30", "--set", "tube.diameter=14 mm", "--set", "time.step=2e-5 s", "--set", "time.settle_limit=0.15 s",
+               "--set", "time.rest_kinetic_energy=1e-3", "--set", "output.frame_interval=0.05 s", "--set", "output.pictures=false", "--set", "output.paraview=false"]
+        for surface in ("facets", "exact"):
+            self.succeeds("fill", self.new_case(), *bed, "--set", f"tube.surface={surface}", "-o", surface)
+            self.succeeds("observe", "tube", f"{surface}/run.h5", "-o", "seen-" + surface)
+            measured, again = self.values(surface), self.values("seen-" + surface)
+            self.assertGreater(again["touching_neighbours"], 1.0)
+            for name in ("touching_neighbours", "sphere_contacts_per_pellet", "wall_contacts_per_pellet"):
+                self.assertAlmostEqual(measured[name], again[name], delta=1e-12, msg=name)
+            # The floor carries its load by elastic forces but for what damping adds while the bed comes to rest.
+            self.assertAlmostEqual(measured["floor_load_share"], again["floor_elastic_share"], delta=0.1)
+        self.assertTrue({"porosity-from-wall.png", "packing-map.png", "orientation.png", "contact-forces.png", "profiles.csv"} <=
+                        set(self.everything_below("seen-exact")))
+        rows = self.read("seen-exact", "profiles.csv").splitlines()
+        self.assertEqual(rows[0], "profile,unit,axis_name,axis_unit,axis,value,standard_error")
+        found = json.loads(self.read("seen-exact", "observables.json"))
+        self.assertEqual(len(rows) - 1, sum(len(one["axis"]) for one in found["profiles"]))
 
     def everything_below(self, folder):
         return [name[len(folder) + 1:] for name in self.everything() if name.startswith(folder + "/")]
