@@ -104,14 +104,15 @@ std::optional<Chart> contact_forces(const Observables& bed) {
 }
 
 std::optional<Chart> collision_spectrum(const Observables& tester, const std::string& energy) {
-    Chart chart{"collisions by " + energy, {energy + " (J)", true}, {"events per pellet and second, in bins of 1/8 decade", true}, {}};
-    std::replace(chart.title.begin(), chart.title.end(), '_', ' ');
-    std::replace(chart.horizontal.label.begin(), chart.horizontal.label.end(), '_', ' ');
+    std::string words = energy;
+    std::replace(words.begin(), words.end(), '_', ' ');
+    Chart chart{"collisions by " + words, {"", true}, {"events per pellet and second, in bins of 1/8 decade", true}, {}};
     for (const auto& [kind, label, colour, marker] :
          {std::tuple{"pellets", "pellet - pellet", blue, Marker::disc}, std::tuple{"wall", "pellet - wall", green, Marker::square},
           std::tuple{"baffle", "pellet - baffle", red, Marker::diamond}}) {
         const Profile* spectrum = profile_of(tester, "spectrum_" + energy + "_" + kind);
         if (spectrum == nullptr) continue;
+        chart.horizontal.label = words + " (" + (spectrum->axis_unit == "uJ" ? "µJ" : spectrum->axis_unit) + ")";
         ChartSeries series = line_of(label, colour);
         series.marker = marker;
         for (std::size_t k = 0; k < spectrum->axis.size(); ++k)

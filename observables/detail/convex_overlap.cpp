@@ -52,8 +52,13 @@ double faces_inside(const ConvexBody& a, const ConvexBody& b, const Vec3& from, 
     double sum = 0.0, size = 0.0;
     for (const Vec3& vertex : b.vertices) size = std::max(size, (vertex - b.centre).squaredNorm());
     const double slack = same_plane * std::sqrt(size);
+    // Faces on the far side of a never reach b.
+    const Vec3 towards = b.centre - a.centre;
+    const double nearest_of_b = -highest_along(b, -towards);
     std::vector<Vec3> polygon, part;
     for (const ConvexBody::Face& face : a.faces) {
+        if (std::all_of(face.corners.begin(), face.corners.end(), [&](std::uint32_t corner) { return a.vertices[corner].dot(towards) < nearest_of_b; }))
+            continue;
         polygon.clear();
         for (const std::uint32_t corner : face.corners) polygon.push_back(a.vertices[corner]);
         for (const ConvexBody::Face& plane : b.faces) {

@@ -48,11 +48,13 @@ TEST(MeasuredCharts, SpectrumHasALineAKind) {
     tester.profiles.push_back(profile("spectrum_impact_energy_pellets", {1e-9, 1e-8, 1e-7}, {0.0, 2.0, 1.0}));
     tester.profiles.push_back(profile("spectrum_impact_energy_wall", {1e-9, 1e-8}, {0.0, 0.0}));
     tester.profiles.push_back(profile("spectrum_impact_energy_baffle", {1e-6}, {0.5}));
+    for (Profile& spectrum : tester.profiles) spectrum.axis_unit = "uJ";
     const auto chart = collision_spectrum(tester, "impact_energy");
     ASSERT_TRUE(chart);
     ASSERT_EQ(chart->series.size(), 2u) << "no event of a kind, no line";
     EXPECT_EQ(chart->series[0].points.size(), 2u) << "empty bins are not on a logarithmic axis";
     EXPECT_EQ(chart->series[1].name, "pellet - baffle");
+    EXPECT_EQ(chart->horizontal.label, "impact energy (µJ)") << "the unit is the profile's";
     EXPECT_EQ(picture_of_chart(*chart, {}).width, 1200u);
     EXPECT_FALSE(collision_spectrum(tester, "total_dissipation"));
 }
