@@ -51,6 +51,30 @@ class Observe(PelletlabTest):
         self.assertAlmostEqual(self.values("seen")["angle_of_repose_cone"], math.degrees(math.atan(0.5)), delta=0.5)
         self.assertIn("top-surface.png", self.everything_below("seen"))
 
+    def test_table_of_crossed_cylinders_in_a_tube(self):
+        """Two cylinders of 3.12 mm lie across each other, 0.2 mm into each other; the lower one 0.1 mm in the floor. Places and orientations only."""
+        self.new_case()
+        half = math.sqrt(0.5)
+        self.write("bed.csv", "time [s],id,x [mm],y [mm],z [mm],qw,qx,qy,qz\n"
+                   f"1,1,0,0,1.46,{half:.15f},{half:.15f},0,0\n1,2,0.3,0.2,4.38,{half:.15f},0,{half:.15f},0\n")
+        tube = ["--diameter", "12 mm", "--pellet", "pellet.stl", "--pellet-unit", "mm", "-o", "seen"]
+        result = self.succeeds("observe", "tube", "bed.csv", *tube)
+        self.assertIn("a table tells no contact forces", result.out)
+        values = self.values("seen")
+        self.assertAlmostEqual(values["true_overlap_depth_max"], 0.2, delta=3e-4)
+        self.assertAlmostEqual(values["wall_overlap_depth_max"], 0.1, delta=1e-6)
+        self.assertEqual(values["true_neighbours_per_pellet"], 1.0)
+        self.assertNotIn("contact_force_mean", values)
+        # Both axes lie level, one along the radius of its own place and one across it as far as (0.3, 0.2) has it.
+        self.assertAlmostEqual(values["mean_axis_alignment"], 0.0, delta=1e-6)
+        # What is cut below the highest point of the bed is the volume of both but for the part in the floor, which the share of the walls tells.
+        found = json.loads(self.read("seen", "observables.json"))
+        axial = next(one for one in found["profiles"] if one["name"] == "packing_fraction_axial")
+        step = axial["axis"][1] - axial["axis"][0]
+        volume = sum(axial["value"]) * step * math.pi * 36.0
+        prism = 2.0 * 12.0 * math.sin(math.radians(15.0)) * 1.56 ** 2 * 2.96
+        self.assertAlmostEqual(volume, prism * (1.0 - values["wall_overlap_volume_share"]), delta=1e-5 * prism)
+
     def test_table_of_a_lying_tube(self):
         rows = ["time (s),id,x (mm),y (mm),z (mm)"]
         places = [(4 * i, 4 * j, 4 * k) for i in range(-9, 10) for j in range(-2, 3) for k in range(-9, 0) if math.hypot(4 * i, 4 * k) < 38.0]
