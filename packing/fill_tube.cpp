@@ -76,7 +76,9 @@ Vessel make_vessel(const Case& c, const RigidTemplate& pellet) {
 
 Observables measure(const Trajectory& last, const Case& c) {
     if (c.tube.lying) return observables::measure_lying_bed(last, {0.5 * c.tube.diameter, c.tube.height, c.measurement.height_grid});
-    return observables::measure_tube_bed(last, {0.5 * c.tube.diameter, 0.0, c.measurement.height_grid});
+    observables::TubeGeometry tube{0.5 * c.tube.diameter, 0.0, c.measurement.height_grid};
+    tube.overlaps = false;  // dear beside a short run; `pelletlab observe tube` has them from its trajectory
+    return observables::measure_tube_bed(last, tube);
 }
 
 }  // namespace
