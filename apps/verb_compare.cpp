@@ -159,7 +159,7 @@ report::Image chart_of(const std::vector<Run>& runs, const std::vector<MeasuredF
         line.colour = {120, 120, 120};
         line.line = true;
         line.dashed = k % 2 == 1;
-        line.marker = report::Marker::cross;
+        line.marker = report::Marker::none;
         chart.series.push_back(line);
     }
     std::map<std::string, report::ChartSeries> shapes;
@@ -182,8 +182,7 @@ report::Image chart_of(const std::vector<Run>& runs, const std::vector<MeasuredF
         for (const MeasuredFill& fill : fills) {
             const double n = fill.pellets > 0.0 ? fill.pellets : fill.mass / one.pellet_mass;
             series.points.push_back({n, 1e3 * fill.height});
-            if (fill.deviation > 0.0)
-                for (const double side : {-1.0, 1.0}) series.points.push_back({n, 1e3 * (fill.height + side * fill.deviation)});
+            series.errors.push_back(fill.deviation > 0.0 ? 1e3 * fill.deviation : 0.0);
         }
         chart.series.push_back(series);
     }
