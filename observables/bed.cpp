@@ -58,8 +58,8 @@ std::vector<std::size_t> bodies_inside(const Frame& frame, const TubeGeometry& t
 
 constexpr double most_bare_floor = 0.1;  // of the grid lines; with more the bed has no top surface
 
-/// Mean height of the top surface over the grid lines within `reach` of the axis; a line that meets no pellet counts with height 0, the floor. Not known when more
-/// than a tenth of the lines meet none: the pellets do not cover the floor, and the mean would be no height of a bed.
+/// Mean height of the top surface over the grid lines within `reach` of the axis; a line that meets no pellet counts with height 0, the floor. Not known when
+/// more than a tenth of the lines meet none: the pellets do not cover the floor, and the mean would be no height of a bed.
 double grid_height(const Bed& bed, double reach) {
     const detail::HeightGrid grid = detail::top_surface(bed.header, bed.frame, bed.bodies, reach, bed.tube.height_grid);
     double sum = 0.0;

@@ -5,7 +5,7 @@
 
 namespace pelletlab::observables::detail {
 
-/// Key ericson2005, section 5.1.5: corner, edge or inside, by barycentric coordinates.
+/// Ericson, Real-Time Collision Detection, 2005, section 5.1.5: corner, edge or inside, by barycentric coordinates.
 inline Vec3 closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
     const double d1 = ab.dot(ap), d2 = ac.dot(ap), d3 = ab.dot(bp), d4 = ac.dot(bp), d5 = ab.dot(cp), d6 = ac.dot(cp);
