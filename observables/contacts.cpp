@@ -1,6 +1,7 @@
 #include "observables/contacts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
