@@ -17,6 +17,7 @@
 #include "campaign/design.hpp"
 #include "core/error.hpp"
 #include "core/progress.hpp"
+#include "experiments/effects/complete_plan.hpp"
 #include "io/campaign_plan_file.hpp"
 #include "io/case_file.hpp"
 #include "io/files.hpp"
@@ -45,6 +46,15 @@ std::vector<std::string> all_overrides(const CampaignPlan& plan, const PlannedRi
     std::vector<std::string> list = rig.overrides;
     for (const std::string& one : campaign::overrides_of(plan, run)) list.push_back(one);
     list.insert(list.end(), {"output.pictures=false", "output.paraview=false"});
+    return list;
+}
+
+/// Effects of the library that are switched on in a run, for case_with_effects.
+std::vector<std::string> effects_of(const CampaignPlan& plan, const PlannedRun& run) {
+    std::vector<std::string> list;
+    for (std::size_t k = 0; k < plan.effects.size(); ++k)
+        if (plan.effect_kinds[k] == PlannedEffectKind::library_case && run.effects[k] != plan.effects[k].baseline)
+            list.push_back(fmt::format("{}={:.17g}", plan.effects[k].name, run.effects[k]));
     return list;
 }
 
@@ -169,12 +179,13 @@ fs::path store_file(const fs::path& folder) {
 
 OpenedCampaign open_campaign(const CampaignRequest& request) {
     OpenedCampaign campaign{io::read_campaign_plan(request.plan_file), request.folder};
+    experiments::complete_effects(campaign.plan);
     const CampaignPlan& plan = campaign.plan;
     if (campaign.folder.empty()) campaign.folder = fs::path("out") / plan.name;
     std::vector<io::StoredRun> runs;
     for (const PlannedRun& run : campaign::design_of(plan)) {
         const PlannedRig& rig = plan.rigs[static_cast<std::size_t>(run.rig)];
-        const Case c = io::read_case(case_of(plan, rig), all_overrides(plan, rig, run));
+        const Case c = case_with_effects(case_of(plan, rig), all_overrides(plan, rig, run), effects_of(plan, run));
         io::StoredRun row;
         row.number = static_cast<int>(runs.size()) + 1;
         row.key = run_key(c);
@@ -206,6 +217,7 @@ void work_on_campaign(const OpenedCampaign& campaign, bool keep_runs) {
         const fs::path folder = campaign.folder / "runs" / run.key.substr(0, 16);
         try {
             RunRequest request{case_of(plan, rig), all_overrides(plan, rig, planned), folder, false};
+            request.effects = effects_of(plan, planned);
             request.resume = Resume::if_possible;
             run_case(request, io::read_case(request.case_file, request.overrides).rig);
             store.finish(run.key, stopwatch.seconds(), io::read_text(folder / "observables.json"));

@@ -7,8 +7,10 @@
 
 #include "apps/campaign_stage.hpp"
 #include "apps/terminal.hpp"
+#include "campaign/design.hpp"
 #include "core/error.hpp"
 #include "core/provenance.hpp"
+#include "experiments/effects/effects.hpp"
 #include "io/files.hpp"
 #include "io/observables_file.hpp"
 
@@ -24,6 +26,21 @@ struct Column {
     std::vector<double> axis;
 };
 
+/// A profile at x. Bins of a run may lie elsewhere than those of the column (they go with the size of its pellets): linear between them, the end bin's own
+/// value up to its edge, NaN beyond.
+double value_at(const Profile& p, double x) {
+    for (std::size_t i = 0; i < p.axis.size(); ++i)
+        if (std::abs(p.axis[i] - x) < 1e-9 * std::max(1.0, std::abs(x))) return p.value[i];
+    if (p.axis.size() < 2) return not_known;
+    const double half = 0.5 * (p.axis[1] - p.axis[0]);
+    if (x < p.axis.front() - half || x > p.axis.back() + half) return not_known;
+    if (x < p.axis.front()) return p.value.front();
+    if (x > p.axis.back()) return p.value.back();
+    const auto above = static_cast<std::size_t>(std::upper_bound(p.axis.begin(), p.axis.end(), x) - p.axis.begin());
+    const double t = (x - p.axis[above - 1]) / (p.axis[above] - p.axis[above - 1]);
+    return (1.0 - t) * p.value[above - 1] + t * p.value[above];
+}
+
 /// Value of one column in a run; NaN when the run does not have it.
 double value_in(const Observables& run, const Column& column, double axis) {
     if (!column.is_profile) {
@@ -31,11 +48,8 @@ double value_in(const Observables& run, const Column& column, double axis) {
             if (o.name == column.observable) return o.value;
         return not_known;
     }
-    for (const Profile& p : run.profiles) {
-        if (p.name != column.observable) continue;
-        for (std::size_t i = 0; i < p.axis.size(); ++i)
-            if (std::abs(p.axis[i] - axis) < 1e-9 * std::max(1.0, std::abs(axis))) return p.value[i];
-    }
+    for (const Profile& p : run.profiles)
+        if (p.name == column.observable) return value_at(p, axis);
     return not_known;
 }
 
@@ -79,8 +93,41 @@ bool has_ended(const io::StoredRun& run) {
     return run.state == io::RunState::finished || run.state == io::RunState::failed;
 }
 
-std::string csv_of(const CampaignPlan& plan, const std::vector<Column>& columns, const std::vector<io::StoredRun>& rows,
-                   const std::vector<Observables>& measured) {
+/// A row of the table: a run, or a run as an instrument with an effect would have read it.
+struct TableRow {
+    std::string rig, status;
+    std::uint64_t seed = 0;
+    std::vector<double> parameters, effects, values;
+};
+
+TableRow row_of(const io::StoredRun& run, const std::vector<double>& effects, const std::vector<Column>& columns, const Observables& measured) {
+    TableRow row{run.rig, run.state == io::RunState::failed ? "failed" : measured.status, run.seed, run.parameters, effects, {}};
+    std::replace(row.status.begin(), row.status.end(), ',', ';');
+    for (const Column& c : columns) {
+        if (!c.is_profile) row.values.push_back(value_in(measured, c, 0.0));
+        for (const double x : c.axis) row.values.push_back(value_in(measured, c, x));
+    }
+    return row;
+}
+
+/// Effects of the measurement: the base points' own values, as such an instrument would have given them. A base point that failed has no reading.
+std::vector<TableRow> readings_in(const CampaignPlan& plan, const std::vector<Column>& columns, const std::vector<io::StoredRun>& rows,
+                                  const std::vector<Observables>& measured) {
+    std::vector<TableRow> readings;
+    for (const PlannedReading& reading : campaign::readings_of(plan))
+        for (std::size_t rig = 0; rig < plan.rigs.size(); ++rig) {
+            const std::size_t i = static_cast<std::size_t>(reading.point) * plan.rigs.size() + rig;  // the design begins with the base points
+            if (rows[i].state != io::RunState::finished) continue;
+            Observables seen = measured[i];
+            for (std::size_t k = 0; k < plan.effects.size(); ++k)
+                if (reading.effects[k] != plan.effects[k].baseline)
+                    seen = experiments::with_effect(experiments::effect_named(plan.effects[k].name), std::move(seen), reading.effects[k]);
+            readings.push_back(row_of(rows[i], reading.effects, columns, seen));
+        }
+    return readings;
+}
+
+std::string csv_of(const CampaignPlan& plan, const std::vector<Column>& columns, const std::vector<TableRow>& rows) {
     std::string text = "regime,status,seed";
     for (const auto& p : plan.parameters) text += "," + p.name;
     for (const auto& e : plan.effects) text += "," + e.name;
@@ -89,17 +136,10 @@ std::string csv_of(const CampaignPlan& plan, const std::vector<Column>& columns,
         for (const double x : c.axis) text += fmt::format(",{}({:.9g})", c.observable, x);
     }
     text += "\n";
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (!has_ended(rows[i])) continue;
-        std::string status = rows[i].state == io::RunState::failed ? "failed" : measured[i].status;
-        std::replace(status.begin(), status.end(), ',', ';');
-        text += fmt::format("{},{},{}", rows[i].rig, status, rows[i].seed);
-        for (const double v : rows[i].parameters) text += "," + field(v);
-        for (const double v : rows[i].effects) text += "," + field(v);
-        for (const Column& c : columns) {
-            if (!c.is_profile) text += "," + field(value_in(measured[i], c, 0.0));
-            for (const double x : c.axis) text += "," + field(value_in(measured[i], c, x));
-        }
+    for (const TableRow& row : rows) {
+        text += fmt::format("{},{},{}", row.rig, row.status, row.seed);
+        for (const auto* numbers : {&row.parameters, &row.effects, &row.values})
+            for (const double v : *numbers) text += "," + field(v);
         text += "\n";
     }
     return text;
@@ -134,12 +174,18 @@ void export_campaign(const OpenedCampaign& campaign) {
         if (rows[i].state == io::RunState::finished) measured[i] = io::parse_observables(rows[i].observables, fmt::format("run {}", rows[i].number));
     std::vector<Column> columns;
     for (const PlannedObservable& o : campaign.plan.observables) columns.push_back(column_of(o, measured, campaign.plan.file));
-    io::write_text(campaign.folder / "runs.csv", csv_of(campaign.plan, columns, rows, measured));
+    std::vector<TableRow> table;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (has_ended(rows[i])) table.push_back(row_of(rows[i], rows[i].effects, columns, measured[i]));
+    const auto readings = readings_in(campaign.plan, columns, rows, measured);
+    table.insert(table.end(), readings.begin(), readings.end());
+    io::write_text(campaign.folder / "runs.csv", csv_of(campaign.plan, columns, table));
     io::write_text(campaign.folder / "campaign.toml", description_of(campaign.plan, columns));
     const auto open = std::count_if(rows.begin(), rows.end(), [](const io::StoredRun& run) { return !has_ended(run); });
     const auto failed = std::count_if(rows.begin(), rows.end(), [](const io::StoredRun& run) { return run.state == io::RunState::failed; });
     print_written(campaign.folder / "runs.csv",
-                  fmt::format("{} runs{}{}", static_cast<std::ptrdiff_t>(rows.size()) - open, failed > 0 ? fmt::format(", {} of them failed", failed) : "",
+                  fmt::format("{} runs{}{}{}", static_cast<std::ptrdiff_t>(rows.size()) - open, failed > 0 ? fmt::format(", {} of them failed", failed) : "",
+                              readings.empty() ? "" : fmt::format("; {} readings of them by instruments with an effect", readings.size()),
                               open > 0 ? fmt::format("; {} are still to be run", open) : ""));
     print_written(campaign.folder / "campaign.toml", "what diagnose and calibrate read");
 }

@@ -10,5 +10,6 @@ namespace pelletlab::apps {
 void print_plan(const Diagnosis& diagnosis);
 void print_answers(const Diagnosis& diagnosis);
 void add_blind_verbs(CLI::App& diagnose);
+void add_effect_verbs(CLI::App& diagnose);
 
 }  // namespace pelletlab::apps

@@ -14,6 +14,7 @@
 #include "apps/terminal.hpp"
 #include "core/error.hpp"
 #include "experiments/attrition_tester.hpp"
+#include "experiments/effects/effects.hpp"
 #include "experiments/rotating_drum.hpp"
 #include "experiments/sandpile.hpp"
 #include "io/case_file.hpp"
@@ -58,6 +59,22 @@ std::string run_key(const Case& c) {
     std::string text = build_version() + "\n" + key.verb + "\n" + key.settings + "\n";
     for (const auto& [name, hash] : key.inputs) text += name + " " + hash + "\n";
     return io::sha256_of_text(text);
+}
+
+Case case_with_effects(const fs::path& file, const std::vector<std::string>& overrides, const std::vector<std::string>& effects) {
+    Case c = io::read_case(file, overrides);
+    if (effects.empty()) return c;
+    for (const std::string& text : effects) {
+        const auto [effect, amplitude] = experiments::parse_effect(text);
+        c = experiments::with_effect(*effect, std::move(c), amplitude);
+    }
+    try {
+        Case checked = io::parse_case(io::resolved_case_text(c), file.string());  // what the effects made is checked as what a person writes
+        checked.folder = c.folder;
+        return checked;
+    } catch (const Error& error) {
+        throw bad_input("with its effects the case is not possible: " + error.problem(), error.remedy(), {file.string()});
+    }
 }
 
 namespace {
@@ -159,7 +176,7 @@ RunSummary finish_run(const Case& c, const StageKey& key, const packing::RunInpu
 
 RunSummary run_case(const RunRequest& request, Rig expected) {
     const Stopwatch stopwatch;
-    const Case c = io::read_case(request.case_file, request.overrides);
+    const Case c = case_with_effects(request.case_file, request.overrides, request.effects);
     if (c.rig != expected)
         throw usage_error(fmt::format("'{}' is a case for the {}", request.case_file.string(), rig_name(c.rig)), "run it with: pelletlab " + verb_of(c.rig));
 

@@ -23,7 +23,8 @@ struct RunRequest {
     std::filesystem::path output;        ///< empty: out/<case name>
     bool force = false;
     Resume resume = Resume::refuse;
-    double checkpoint_interval = 60.0;  ///< [s] of wall time; 0: none but that of Ctrl-C
+    std::vector<std::string> effects = {};  ///< «name=amplitude» of the library (experiments/effects), after the overrides
+    double checkpoint_interval = 60.0;      ///< [s] of wall time; 0: none but that of Ctrl-C
 };
 
 struct RunSummary {
@@ -35,9 +36,12 @@ struct RunSummary {
     double pellet_steps_per_second = 0.0;  ///< stepping alone
 };
 
-/// Hash of what decides a run's result: version of the program, resolved case, clump and meshes. Not the commit, unlike a stage's fingerprint: a campaign of hours
-/// outlives commits. Throws Error(bad_input) for files that are not there.
+/// Hash of what decides a run's result: version of the program, resolved case, clump and meshes. Not the commit, unlike a stage's fingerprint: a campaign of
+/// hours outlives commits. Throws Error(bad_input) for files that are not there.
 std::string run_key(const Case& c);
+
+/// The case as the file, the overrides and the effects make it, checked as a whole.
+Case case_with_effects(const std::filesystem::path& file, const std::vector<std::string>& overrides, const std::vector<std::string>& effects);
 
 /// Runs the case on its rig; throws Error(usage) when the case's rig is not `expected`.
 RunSummary run_case(const RunRequest& request, Rig expected);

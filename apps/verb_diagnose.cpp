@@ -98,6 +98,7 @@ void add_diagnose_verb(CLI::App& app) {
         io::write_text(options->html, report::diagnosis_html(io::read_diagnosis(options->diagnosis)));
         print_written(options->html, "one offline page");
     });
+    add_effect_verbs(*group);
     add_blind_verbs(*group);
 }
 

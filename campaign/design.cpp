@@ -25,33 +25,63 @@ std::vector<double> values_at(const CampaignPlan& plan, const Eigen::VectorXd& p
     return values;
 }
 
+std::vector<double> baseline_of(const CampaignPlan& plan) {
+    std::vector<double> baseline;
+    for (const CampaignEffect& e : plan.effects) baseline.push_back(e.baseline);
+    return baseline;
+}
+
+/// Value of the i-th run of an effect, u uniform in (0, 1).
+double amplitude_at(const CampaignPlan& plan, std::size_t effect, int i, double u) {
+    const auto& levels = plan.effect_levels[effect];
+    if (!levels.empty()) return levels[static_cast<std::size_t>(i) % levels.size()];
+    const double theta = 0.15 + 0.85 * u;
+    return value_of_amplitude(plan.effects[effect], plan.effects[effect].two_sided && i % 2 == 1 ? -theta : theta);
+}
+
 }  // namespace
+
+int base_points(const CampaignPlan& plan) {
+    return plan.points > 0 ? plan.points : 10 * static_cast<int>(plan.parameters.size());
+}
 
 std::vector<PlannedRun> design_of(const CampaignPlan& plan) {
     std::vector<PlannedRun> runs;
-    std::vector<double> baseline;
-    for (const CampaignEffect& e : plan.effects) baseline.push_back(e.baseline);
+    const std::vector<double> baseline = baseline_of(plan);
     std::uint64_t number = 0;
     const auto add = [&](const std::vector<double>& parameters, const std::vector<double>& effects) {
         ++number;
         for (std::size_t rig = 0; rig < plan.rigs.size(); ++rig) runs.push_back({static_cast<int>(rig), parameters, effects, 1000000 * plan.seed + number});
     };
-    const int dimensions = static_cast<int>(plan.parameters.size());
-    const int points = plan.points > 0 ? plan.points : 10 * dimensions;
+    const int dimensions = static_cast<int>(plan.parameters.size()), points = base_points(plan);
     for (int i = 0; i < points; ++i) add(values_at(plan, sobol_point(i, dimensions)), baseline);
     for (int repeat = 1; repeat < plan.repeats; ++repeat)
         for (int i = 0; i < std::min(plan.anchors, points); ++i) add(values_at(plan, sobol_point(i, dimensions)), baseline);
-    for (std::size_t k = 0; k < plan.effects.size(); ++k)
+    for (std::size_t k = 0; k < plan.effects.size(); ++k) {
+        if (plan.effect_kinds[k] == PlannedEffectKind::library_data) continue;
         for (int i = 0; i < plan.runs_an_effect; ++i) {
             // One more dimension for the amplitude; every effect goes on where the one before ended.
             const Eigen::VectorXd u = sobol_point(points + static_cast<int>(k) * plan.runs_an_effect + i, dimensions + 1);
-            double theta = 0.15 + 0.85 * u[dimensions];
-            if (plan.effects[k].two_sided && i % 2 == 1) theta = -theta;
             auto effects = baseline;
-            effects[k] = value_of_amplitude(plan.effects[k], theta);
+            effects[k] = amplitude_at(plan, k, i, u[dimensions]);
             add(values_at(plan, u.head(dimensions)), effects);
         }
+    }
     return runs;
+}
+
+std::vector<PlannedReading> readings_of(const CampaignPlan& plan) {
+    std::vector<PlannedReading> readings;
+    const int points = base_points(plan);
+    for (std::size_t k = 0; k < plan.effects.size(); ++k) {
+        if (plan.effect_kinds[k] != PlannedEffectKind::library_data) continue;
+        for (int i = 0; i < std::min(plan.runs_an_effect, points); ++i) {
+            PlannedReading reading{i, baseline_of(plan)};
+            reading.effects[k] = amplitude_at(plan, k, i, sobol_point(static_cast<int>(k) * plan.runs_an_effect + i, 1)[0]);
+            readings.push_back(reading);
+        }
+    }
+    return readings;
 }
 
 std::vector<std::string> overrides_of(const CampaignPlan& plan, const PlannedRun& run) {

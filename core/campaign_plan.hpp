@@ -23,6 +23,13 @@ struct PlannedObservable {
     double axis_lower = 0.0, axis_upper = 0.0;  ///< of a profile, in its axis unit; equal: all bins that every good run has
 };
 
+/// What an effect of the plan changes.
+enum class PlannedEffectKind {
+    case_keys,     ///< the keys that the plan names
+    library_case,  ///< the case, by an effect of the library (experiments/effects)
+    library_data   ///< what was measured in a run, by an effect of the library: no run of its own
+};
+
 struct CampaignPlan {
     std::string name, file, text_sha256;
     std::uint64_t seed = 1;
@@ -30,7 +37,10 @@ struct CampaignPlan {
     std::vector<CampaignParameter> parameters;
     std::vector<std::vector<std::string>> parameter_keys;  ///< case keys that take the parameter's value
     std::vector<CampaignEffect> effects;
-    std::vector<std::vector<std::string>> effect_keys;
+    std::vector<std::vector<std::string>> effect_keys;  ///< empty for effects of the library
+    std::vector<PlannedEffectKind> effect_kinds;
+    std::vector<std::vector<double>> effect_levels;  ///< the only values that it can have besides the baseline; empty: all
+    std::vector<Place> effect_places;
     std::vector<PlannedObservable> observables;
     std::vector<std::string> good{"complete"};  ///< statuses of runs that count
     double largest_failed_share = 0.05;
@@ -45,6 +55,12 @@ struct PlannedRun {
     int rig = 0;
     std::vector<double> parameters, effects;  ///< values in the units of the plan
     std::uint64_t seed = 1;
+};
+
+/// Values of one base point as an instrument with an effect of the measurement would have seen them.
+struct PlannedReading {
+    int point = 0;                ///< base point of the design, from 0
+    std::vector<double> effects;  ///< values in the units of the plan
 };
 
 }  // namespace pelletlab

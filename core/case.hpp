@@ -68,6 +68,7 @@ struct PhysicsChoice {
 struct PelletChoice {
     std::string clump_file = "pellet.clump.toml";
     std::uint32_t count = 1000;  ///< 0: from the fill fraction of the rig
+    double size_factor = 1.0;    ///< all lengths of the pellet / those of the clump file
     std::string material = "pellet";
     bool operator==(const PelletChoice&) const = default;
 };
@@ -191,10 +192,10 @@ struct Output {
     bool operator==(const Output&) const = default;
 };
 
-struct Measurement {
+struct MeasurementGrids {
     double height_grid = 0.001;    ///< [m], cell of the top-surface grid (tube, pile)
     double velocity_grid = 0.002;  ///< [m], cell of the maps (drum, tester)
-    bool operator==(const Measurement&) const = default;
+    bool operator==(const MeasurementGrids&) const = default;
 };
 
 struct Case {
@@ -215,7 +216,7 @@ struct Case {
     Insertion insertion;
     TimeControl time;
     Output output;
-    Measurement measurement;
+    MeasurementGrids measurement;
     std::string folder;  ///< of the case file; relative paths in it start here
     bool operator==(const Case&) const = default;
 };

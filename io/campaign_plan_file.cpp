@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/observables.hpp"
 #include "io/detail/campaign_quantities.hpp"
 #include "io/files.hpp"
 
@@ -21,6 +22,16 @@ std::vector<std::string> read_keys(TomlTable& t) {
 void refuse_known(TomlTable& t, const std::string& name, std::vector<std::string>& known) {
     if (std::find(known.begin(), known.end(), name) != known.end()) throw t.problem("name", "'" + name + "' stands twice", "rename one");
     known.push_back(name);
+}
+
+CampaignEffect read_library_effect(TomlTable& t) {
+    CampaignEffect e;
+    e.name = e.column = t.text("name");
+    e.title = t.text("title", "");
+    e.full = t.number("full", not_known);
+    if (e.full == 0.0) throw t.problem("full", "equals the baseline", "full is the value at the end of the plausible range");
+    e.square_root = t.choice("scale", "linear", {"linear", "sqrt"}) == "sqrt";
+    return e;
 }
 
 }  // namespace
@@ -48,9 +59,14 @@ CampaignPlan read_campaign_plan(const std::filesystem::path& file) {
         plan.parameter_keys.push_back(read_keys(one));
     });
     t.each("effect", [&](TomlTable& one) {
-        plan.effects.push_back(detail::read_campaign_effect(one));
+        // Without keys it is one of the library, which knows what is not given here.
+        const bool from_library = !one.has("keys");
+        plan.effects.push_back(from_library ? read_library_effect(one) : detail::read_campaign_effect(one));
         refuse_known(one, plan.effects.back().name, names);
-        plan.effect_keys.push_back(read_keys(one));
+        plan.effect_keys.push_back(from_library ? std::vector<std::string>{} : read_keys(one));
+        plan.effect_kinds.push_back(from_library ? PlannedEffectKind::library_case : PlannedEffectKind::case_keys);
+        plan.effect_levels.emplace_back();
+        plan.effect_places.push_back(one.place("name"));
     });
     t.each("observable", [&](TomlTable& one) {
         PlannedObservable o;

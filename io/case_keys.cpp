@@ -89,6 +89,8 @@ std::vector<CaseKey> make_keys() {
             "Clump template, made by `pelletlab shape`; a relative path starts at the folder of the case file."));
     add(within(from_to(0, 100e6),
                key("pellet.count", PELLETLAB_MEMBER(c.pellet.count), "Number of pellets; 0 in a drum: as many as drum.fill_fraction asks for.")));
+    add(within(between(0.1, 10), key("pellet.size_factor", PELLETLAB_MEMBER(c.pellet.size_factor),
+                                     "All lengths of the pellet / those of the clump file: 1.03 is 3 % longer and wider, at the same density.")));
     add(key("pellet.material", PELLETLAB_MEMBER(c.pellet.material), "Material of the pellets: a table [materials.<name>]."));
 
     add(in(density, "kg/m^3",

@@ -46,6 +46,21 @@ solver::Physics physics_of(const PhysicsChoice& p) {
     return physics;
 }
 
+/// The same body of the same density, all lengths times `factor`: volume and mass grow with its cube, moments of inertia with its fifth power.
+RigidTemplate scaled(RigidTemplate body, double factor) {
+    for (Sphere& sphere : body.spheres) {
+        sphere.centre *= factor;
+        sphere.radius *= factor;
+    }
+    const double cube = factor * factor * factor;
+    MassProperties& properties = body.mass_properties;
+    properties.volume *= cube;
+    properties.mass *= cube;
+    properties.principal_inertia *= cube * factor * factor;
+    properties.centre_of_mass_mesh *= factor;
+    return body;
+}
+
 }  // namespace
 
 solver::SimulationDefinition define_simulation(const Case& c, const RunInputs& inputs, std::vector<solver::WallDefinition> walls) {
@@ -55,6 +70,7 @@ solver::SimulationDefinition define_simulation(const Case& c, const RunInputs& i
     RigidTemplate pellet = inputs.clump.rigid;
     if (pellet.spheres.empty() || !(pellet.mass_properties.density > 0.0) || !(pellet.mass_properties.volume > 0.0))
         throw bad_input("the clump '" + pellet.name + "' has no spheres, volume or density", "make it again with: pelletlab shape");
+    pellet = scaled(std::move(pellet), c.pellet.size_factor);
     pellet.mass_properties = with_density(pellet.mass_properties, material.density);
     pellet.bounding_radius = bounding_radius(pellet.spheres);
 
@@ -103,7 +119,9 @@ Frame capture_frame(const solver::Simulation& simulation, std::size_t in_all) {
 TrajectoryHeader trajectory_header(const Case& c, const RunInputs& inputs, const solver::Simulation& simulation) {
     TrajectoryHeader header;
     header.case_name = c.name;
-    for (const RigidTemplate& pellet : simulation.definition().templates) header.shapes.push_back({pellet, inputs.pellet_surface_body});
+    TriangleMesh surface = inputs.pellet_surface_body;
+    for (Vec3& vertex : surface.vertices) vertex *= c.pellet.size_factor;
+    for (const RigidTemplate& pellet : simulation.definition().templates) header.shapes.push_back({pellet, surface});
     header.shape_of_body = simulation.bodies().template_index;
     for (const solver::WallDefinition& wall : simulation.definition().walls) header.walls.push_back({wall.name, wall.mesh});
     header.gravity = c.gravity;

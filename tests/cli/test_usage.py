@@ -10,7 +10,7 @@ VERBS = [["shape"], ["shape", "export"], ["shape", "import"], ["shape", "compare
          ["compare"], ["compare", "tube"], ["campaign"], ["campaign", "run"], ["campaign", "work"], ["campaign", "status"], ["campaign", "export"], ["calibrate"],
          ["mesh"], ["mesh", "check"], ["mesh", "make"], ["mesh", "assets"],
          ["case"], ["case", "new"], ["case", "check"], ["case", "schema"], ["case", "reference"],
-         ["diagnose"], ["diagnose", "audit"], ["diagnose", "plan"], ["diagnose", "run"], ["diagnose", "report"],
+         ["diagnose"], ["diagnose", "audit"], ["diagnose", "plan"], ["diagnose", "run"], ["diagnose", "report"], ["diagnose", "effects"], ["diagnose", "signatures"],
          ["diagnose", "blind"], ["diagnose", "blind", "make"], ["diagnose", "blind", "run"], ["diagnose", "blind", "score"]]
 
 

@@ -17,6 +17,8 @@ CampaignPlan plan() {
     p.parameter_keys = {{"contacts.a.sliding_friction", "contacts.b.sliding_friction"}, {"drum.speed"}};
     p.effects = {{"rolling", "", "rolling", "1", 0.0, 0.4, true, false, "contact"}, {"size", "", "size", "mm", 3.0, 3.3, false, true, "particle"}};
     p.effect_keys = {{"contacts.a.rolling_friction"}, {"pellet.size"}};
+    p.effect_kinds = {PlannedEffectKind::case_keys, PlannedEffectKind::case_keys};
+    p.effect_levels = {{}, {}};
     p.points = 20;
     p.runs_an_effect = 5;
     p.anchors = 4;
