@@ -24,7 +24,7 @@ Case awkward_case(Rig rig, std::uint64_t stream) {
     c.name = "quote \" backslash \\ tab \t newline \n bell \x07 µ 3.1";
     c.seed = random.bits() >> 2;
     c.gravity = {random.normal(), -positive(), random.normal()};
-    c.pellet = {"some where/clump.toml", 17, "γ-alumina 5.1"};
+    c.pellet = {"some where/clump.toml", 17, 1.03, "γ-alumina 5.1"};
     c.materials.clear();
     c.materials["γ-alumina 5.1"] = {positive() * 1e5, positive() * 1e9, random.uniform(-0.9, 0.49)};
     c.materials["perspex"] = {positive(), positive(), 0.1 + 0.2};
