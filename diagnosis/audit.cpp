@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/audit_ranges.hpp"
 #include "diagnosis/diagnose.hpp"
 
 namespace pelletlab::diagnosis {
@@ -42,6 +43,7 @@ std::vector<AuditItem> audit(const Problem& problem) {
         if (m[i].repeats == 1) items.push_back({false, fmt::format("'{}': one repeat, so its uncertainty is a statement and not a measurement", m[i].name)});
         if (m[i].instrument.empty()) items.push_back({false, fmt::format("'{}' names no instrument: its offset is taken as its own", m[i].name)});
     }
+    for (AuditItem& item : audit_ranges(problem)) items.push_back(std::move(item));
     int loose = 0;
     for (const DataPoint& p : problem.fitted.points) loose += p.uncertainty > p.tolerance ? 1 : 0;
     if (loose > 0)
