@@ -23,6 +23,7 @@
 #include "shapegen/detail/surface_samples.hpp"
 #include "shapegen/detail/symmetric_loss.hpp"
 #include "shapegen/detail/symmetric_search.hpp"
+#include "shapegen/detail/true_loss.hpp"
 
 namespace pelletlab::shapegen {
 
@@ -300,10 +301,13 @@ FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& se
     SampleBlocks fine = samples_of(body, std::max({std::size_t{8000}, 300 * n, 1000 * group.elements.size()}), settings.seed + 1, group, band,
                                    minimax || settings.mode == FitMode::outside);
     const std::size_t points = std::max<std::size_t>(10000, (minimax ? 120 : 60) * n);
+    MatchSettings match{settings.match_volume, settings.match_inertia, min_radius, 0.002};
+    FewSpheresResult found;
     if (few) {
         const ModeContext plain{body.mesh, unit_distance, unit_exact, body.moments, min_radius, 0.0, nullptr, 1.0};
-        FewSpheresResult found = fit_few(n, coarse, fine, plain, points, relocation);
-        spheres = std::move(found.spheres);
+        found = fit_few(n, coarse, fine, plain, points, relocation, match);
+        spheres = found.spheres;
+        for (std::vector<Sphere>& fewer : found.fewer) result.fewer.push_back(body.frame.to_mesh(std::move(fewer)));
         result.iterations += found.iterations;
         result.relocations = found.relocations;
     } else {
@@ -325,14 +329,19 @@ FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& se
                               settings.poke_out / body.frame.length,
                               symmetric ? &map : nullptr,
                               band ? band->second : 1.0};
-    MinimiserResult polished = mode_stage(settings.mode)(spheres, context, fine, points);
+    MinimiserResult polished;
+    if (few && settings.mode == FitMode::mean) {
+        polished.converged = found.converged;
+        match.centre_and_inertia = match.centre_and_inertia && settings.most_contacts > 0;  // done already, as far as it may go
+    } else {
+        polished = mode_stage(settings.mode)(spheres, context, fine, points);
+    }
     const ContactLimit limit{settings.most_contacts, (settings.press > 0.0 ? settings.press / body.frame.length : body.smallest_extent / 300.0)};
     if (limit.most > 0) polished.iterations += fit_within_contacts(spheres, context, limit, fine, points).iterations;
     result.iterations += polished.iterations;
     result.status = polished.converged ? FitStatus::converged : FitStatus::stopped_early;
 
     const bool one_sided = settings.mode == FitMode::inside || settings.mode == FitMode::outside;
-    MatchSettings match{settings.match_volume, settings.match_inertia, min_radius, 0.002};
     if (!one_sided) {
         tell("matching volume and inertia");
         match_moments(spheres, body.moments, match);
@@ -343,11 +352,8 @@ FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& se
     if (limit.most > 0 && !hold_contacts(spheres, context, limit)) result.status = FitStatus::limit_not_met;
     if (!one_sided && (symmetric || limit.most > 0 || settings.mode == FitMode::flat)) match_moments(spheres, body.moments, match);
 
-    fine.weight.assign(fine.size(), 1.0);
-    SymmetricLoss both(fine, unit_distance, spheres, body.moments, points);
-    VectorXd gradient;
-    both.evaluate(pack(spheres), gradient, nullptr);
-    result.loss = 0.5 * (both.first() + both.second()) * body.frame.length * body.frame.length;
+    result.loss = true_loss(spheres, fine, few ? static_cast<const meshes::SignedDistance&>(unit_exact) : unit_distance, few ? fine.size() : points) *
+                  body.frame.length * body.frame.length;
     result.poke_out = std::max(0.0, largest_poke_out(spheres, unit_exact) + unit_exact.error_bound()) * body.frame.length;
     result.spheres = body.frame.to_mesh(std::move(spheres));
     result.times.finish = clock.lap();

@@ -57,9 +57,11 @@ struct FitTimes {
 
 struct FitResult {
     std::vector<Sphere> spheres;  ///< in the frame of the mesh
+    std::vector<std::vector<Sphere>>
+        fewer;  ///< up to eight spheres without symmetry: the fits of 1, 2, … spheres (mode mean) that the search went through, in the frame of the mesh
     FitStatus status = FitStatus::converged;
     Symmetry symmetry;              ///< that the spheres have by construction, about the body's centre of mass
-    double loss = 0.0;              ///< [m²], mean squared distance at the end, average of both directions
+    double loss = 0.0;              ///< [m²], mean squared distance at the end, average of both directions (up to eight spheres by the exact query)
     double poke_out = 0.0;          ///< [m], no point of the union is farther outside of the body (exact query)
     std::uint32_t iterations = 0;   ///< of the minimiser, all stages
     std::uint32_t relocations = 0;  ///< spheres that found a better place elsewhere

@@ -8,10 +8,9 @@
 #include "core/random.hpp"
 #include "shapegen/detail/match_moments.hpp"
 #include "shapegen/detail/medial_balls.hpp"
-#include "shapegen/detail/outer_surface.hpp"
 #include "shapegen/detail/seeding.hpp"
 #include "shapegen/detail/settle.hpp"
-#include "shapegen/detail/union_distance.hpp"
+#include "shapegen/detail/true_loss.hpp"
 
 namespace pelletlab::shapegen::detail {
 
@@ -19,17 +18,18 @@ namespace {
 
 constexpr std::uint64_t random_starts = 2;
 constexpr std::uint32_t most_trials = 12;
-constexpr std::size_t most_points = 2500;  // enough to tell which start is best
+constexpr std::size_t few_points = 2500;  // enough to tell which start is best
 
 class FewSearch {
 public:
-    FewSearch(const SampleBlocks& coarse, const SampleBlocks& fine, const ModeContext& context, std::size_t points, const RelocationSettings& settings)
-        : coarse_(coarse), fine_(fine), context_(context), points_(std::min(points, most_points)), settings_(settings) {}
+    FewSearch(const SampleBlocks& coarse, const SampleBlocks& fine, const ModeContext& context, std::size_t points, const RelocationSettings& settings,
+              const MatchSettings& match)
+        : coarse_(coarse), fine_(fine), context_(context), points_(points), settings_(settings), match_(match) {}
 
     FewSpheresResult run(std::size_t count) {
         for (std::size_t n = 1; n <= count; ++n) {
-            const std::vector<Sphere> fewer = std::move(result_.spheres);
-            const double loss_of_fewer = best_;
+            const std::vector<Sphere> fewer = result_.spheres;
+            const double loss_of_fewer = result_.loss;
             best_ = std::numeric_limits<double>::infinity();
             if (n > 1) {
                 const std::vector<Sphere> grown = with_ball_at_largest_gap(fewer);
@@ -43,11 +43,13 @@ public:
                 std::vector<Sphere> row = row_along(axis, n);
                 if (!row.empty()) refine(std::move(row));
             }
-            if (best_ > loss_of_fewer) {  // one more sphere that does not show is no worse
+            finish();
+            if (n > 1 && result_.loss > loss_of_fewer) {  // one more sphere that does not show is no worse
                 result_.spheres = fewer;
                 result_.spheres.push_back(hidden_in(fewer));
-                best_ = loss_of_fewer;
+                result_.loss = loss_of_fewer;
             }
+            if (n < count) result_.fewer.push_back(result_.spheres);
         }
         return std::move(result_);
     }
@@ -56,49 +58,39 @@ private:
     // Both keep what these spheres become if that is better than what is kept: minimising as they are, or after a search for better places.
     void refine(std::vector<Sphere> spheres) {
         throw_if_interrupted();
-        SymmetricLoss loss(fine_, context_.distance, spheres, context_.moments, points_);
-        const MinimiserResult polished = polish(spheres, loss, context_, 30, 1e-3);
-        result_.iterations += polished.iterations;
-        const double loss_now = true_loss(spheres);
+        SymmetricLoss loss(fine_, context_.distance, spheres, context_.moments, std::min(points_, few_points));
+        result_.iterations += polish(spheres, loss, context_, 30, 1e-3).iterations;
+        match_moments(spheres, context_.moments, match_);
+        const double loss_now = true_loss(spheres, fine_, context_.distance, few_points);
         if (loss_now >= best_) return;
         best_ = loss_now;
         result_.spheres = std::move(spheres);
     }
 
-    // Mean square of both directions by the true distance to the union. The minimiser's |p − c| − r is a bound of the depth inside, far off for few spheres: it
-    // prefers four in a tetrahedron to three in a row, which are better.
-    double true_loss(std::vector<Sphere> spheres) const {
-        match_moments(spheres, context_.moments, {true, false, settings_.min_radius, 0.0});
-        const std::vector<ExposedPart> boundary = union_boundary(spheres);
-        const OuterSurface outer(spheres, 64);
-        const UnionDistance to_union(spheres, boundary, outer);
-        const std::size_t stride = std::max<std::size_t>(1, fine_.size() / points_);
-        double first = 0.0, count = 0.0, area = 0.0;
-        for (std::size_t k = 0; k < fine_.size(); k += stride) {
-            const double d = to_union.value(fine_.points[k]);
-            first += d * d;
-            count += 1.0;
+    // The last stage of the mode mean for the best start, where that leads to something better.
+    void finish() {
+        std::vector<Sphere> spheres = result_.spheres;
+        const MinimiserResult polished = fit_mean(spheres, context_, fine_, points_);
+        result_.iterations += polished.iterations;
+        result_.converged = polished.converged;
+        match_moments(spheres, context_.moments, match_);
+        const double before = true_loss(result_.spheres, fine_, context_.distance, fine_.size());
+        result_.loss = true_loss(spheres, fine_, context_.distance, fine_.size());
+        if (result_.loss < before) {
+            result_.spheres = std::move(spheres);
+        } else {
+            result_.loss = before;
         }
-        for (std::size_t i = 0; i < spheres.size(); ++i) area += boundary[i].solid_angle * spheres[i].radius * spheres[i].radius;
-        const UnionSamples samples = sample_union(spheres, boundary, outer, std::sqrt(area / static_cast<double>(points_)));
-        double second = 0.0, weight = 0.0;
-        for (std::size_t k = 0; k < samples.points.size(); ++k) {
-            const double d = context_.distance.value(samples.points[k]);
-            second += samples.areas[k] * d * d;
-            weight += samples.areas[k];
-        }
-        return 0.5 * (first / count + second / weight);
     }
 
     void search(std::vector<Sphere> spheres) {
         throw_if_interrupted();
         RelocationSettings settings = settings_;
         settings.trials = std::min(settings.trials, most_trials);
-        settle_all(coarse_, spheres, settings.slack);
+        settle_all(spheres, settings.slack);
         const RelocationResult moved = relocate(spheres, coarse_, context_.distance, settings);
         result_.iterations += moved.iterations;
         result_.relocations += moved.accepted;
-        settle_all(fine_, spheres, settings.slack);
         refine(std::move(spheres));
     }
 
@@ -173,8 +165,8 @@ private:
         return inner;
     }
 
-    void settle_all(const SampleBlocks& samples, std::vector<Sphere>& spheres, double& slack) {
-        GapLoss loss(samples, spheres);
+    void settle_all(std::vector<Sphere>& spheres, double& slack) {
+        GapLoss loss(coarse_, spheres);
         loss.evaluate(pack(spheres), nullptr, nullptr);
         slack = 2.0 * std::sqrt(loss.gap_part());
         loss.contain({&context_.distance, slack});
@@ -186,6 +178,7 @@ private:
     const ModeContext& context_;
     std::size_t points_;
     RelocationSettings settings_;
+    MatchSettings match_;
     double best_ = std::numeric_limits<double>::infinity();
     FewSpheresResult result_;
 };
@@ -193,8 +186,8 @@ private:
 }  // namespace
 
 FewSpheresResult fit_few(std::size_t count, const SampleBlocks& coarse, const SampleBlocks& fine, const ModeContext& context, std::size_t points,
-                         const RelocationSettings& settings) {
-    return FewSearch(coarse, fine, context, points, settings).run(count);
+                         const RelocationSettings& settings, const MatchSettings& match) {
+    return FewSearch(coarse, fine, context, points, settings, match).run(count);
 }
 
 }  // namespace pelletlab::shapegen::detail

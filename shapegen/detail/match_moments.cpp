@@ -32,6 +32,8 @@ void add_to_radii(std::vector<Sphere>& spheres, double offset, double min_radius
     for (Sphere& sphere : spheres) sphere.radius = std::max(sphere.radius + offset, std::max(min_radius, 1e-3 * sphere.radius));
 }
 
+constexpr double largest_offset = 0.05;  // × size of the body, of the radii beside a stretch; usual are 1e-3
+
 // Stretch of the centres along three axes and radius offset, and what they leave: relative errors of the spread along the axes and of the volume.
 using Unknowns = Eigen::Vector4d;
 
@@ -92,6 +94,7 @@ void match_moments(std::vector<Sphere>& spheres, const BodyMoments& body, const 
         if (error.cwiseAbs().maxCoeff() < 1e-11) break;
         u -= solver.solve(error);
         for (int k = 0; k < 3; ++k) u[k] = std::clamp(u[k], -settings.largest_stretch, settings.largest_stretch);
+        if (!(std::abs(u[3]) < largest_offset * size)) return;  // no way from here: the volume alone is met
         error = errors(changed(start, axes, centre, u, settings.min_radius), axes, wanted, body);
     }
     spheres = changed(start, axes, centre, u, settings.min_radius);
