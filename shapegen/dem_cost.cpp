@@ -88,7 +88,7 @@ DemCost dem_cost(std::span<const Sphere> spheres, const MassProperties& mass, co
         if (k >= 3) result.contacts_mean += static_cast<double>(rows[k].contacts) / static_cast<double>(spread_directions);
     }
     result.time_step = 2.0 / std::sqrt(largest);
-    result.work = static_cast<double>(spheres.size()) + settings.neighbours * result.contacts_mean * settings.work_of_contact;
+    result.work = settings.work_of_pellet + static_cast<double>(spheres.size()) * settings.work_of_sphere + 0.5 * settings.neighbours * result.contacts_mean;
     result.cost = result.work / result.time_step;
     return result;
 }

@@ -12,16 +12,18 @@ namespace pelletlab::shapegen {
 struct DemCostSettings {
     double shear_modulus = 2e6;  ///< [Pa]
     double poisson_ratio = 0.25;
-    double press = 0.0;            ///< [m], how deep a plane is pressed in; 0: 1/300 of (6 V / π)^⅓, V the body's volume
-    double neighbours = 6.0;       ///< touching neighbours of a pellet in a bed
-    double work_of_contact = 4.0;  ///< of one contact in one step, in works of one sphere (moving it, keeping its list of neighbours)
+    double press = 0.0;           ///< [m], how deep a plane is pressed in; 0: 1/300 of (6 V / π)^⅓, V the body's volume
+    double neighbours = 4.0;      ///< touching neighbours of a pellet in a bed: each pair's contacts are worked through once
+    double work_of_pellet = 1.7;  ///< of one pellet in one step without its contacts, in works of one contact; measured on this solver (docs/quality.md)
+    double work_of_sphere = 0.0;  ///< of each of its spheres: none here, the solver looks only at those that face a neighbour; about 0.25 in a program that
+                                  ///< treats every sphere as a particle
 };
 
 struct DemCost {
     double time_step = 0.0;         ///< [s], 2 / ω_max: stability limit of velocity Verlet with the clump pressed between two planes in its stiffest direction
     double contacts_mean = 0.0;     ///< spheres that touch a pressed-in plane at once, mean over all directions
     std::size_t contacts_most = 0;  ///< the most in any direction looked at
-    double work = 0.0;              ///< of one step, in works of one sphere: N + neighbours · contacts_mean · work_of_contact
+    double work = 0.0;              ///< of one pellet and step, in works of one contact: work_of_pellet + N · work_of_sphere + ½ neighbours · contacts_mean
     double cost = 0.0;              ///< work / time_step [1/s]: work for a second of simulated time
 };
 

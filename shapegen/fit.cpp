@@ -90,6 +90,13 @@ double expected_gap(std::size_t spheres) {
     return 0.019 * std::pow(24.0 / static_cast<double>(spheres), 0.68);
 }
 
+// Relocation judges one direction on few samples and ends where none of its trials gains. The fine samples then move all spheres, and how far they may reach
+// out is set anew; after that it gains again. The trilobe's rms at 200 spheres falls by a fifth with three rounds; at
+// 82 spheres a second round gains nothing on the cylinder.
+std::uint32_t rounds_of_search(std::size_t spheres) {
+    return spheres < 128 ? 1 : 3;
+}
+
 struct WeighedBand {
     EdgeBand band;
     double faces = 1.0;   // weight of the surface apart from it
@@ -292,12 +299,13 @@ FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& se
 
     tell("moving spheres to better places");
     RelocationSettings relocation;
-    relocation.trials = static_cast<std::uint32_t>(settings.effort * std::clamp(1.2 * static_cast<double>(n), 40.0, 500.0));
+    const std::uint32_t rounds = rounds_of_search(n);
+    const double trials = std::clamp(1.2 * static_cast<double>(n), 40.0, 500.0) * (rounds > 1 ? 2.0 / 3.0 : 1.0);
+    relocation.trials = static_cast<std::uint32_t>(settings.effort * trials);
     relocation.seed = settings.seed;
     relocation.min_radius = min_radius;
     relocation.largest_radius = seeds.largest_radius;
     relocation.tolerance = seeds.tolerance;
-    relocation.slack = containment.slack;
     SampleBlocks fine = samples_of(body, std::max({std::size_t{8000}, 300 * n, 1000 * group.elements.size()}), settings.seed + 1, group, band,
                                    minimax || settings.mode == FitMode::outside);
     const std::size_t points = std::max<std::size_t>(10000, (minimax ? 120 : 60) * n);
@@ -311,11 +319,15 @@ FitResult fit_spheres(const TriangleMesh& mesh, const meshes::SignedDistance& se
         result.iterations += found.iterations;
         result.relocations = found.relocations;
     } else {
-        const RelocationResult moved =
-            symmetric ? relocate_orbits(group, orbits, coarse, unit_distance, relocation) : relocate(spheres, coarse, unit_distance, relocation);
-        result.iterations += moved.iterations;
-        result.relocations = moved.accepted;
-        settle_all(fine, 60, 1e-4);
+        for (std::uint32_t round = 0; round < rounds; ++round) {
+            relocation.seed = settings.seed + (std::uint64_t{round} << 32);
+            relocation.slack = containment.slack;
+            const RelocationResult moved =
+                symmetric ? relocate_orbits(group, orbits, coarse, unit_distance, relocation) : relocate(spheres, coarse, unit_distance, relocation);
+            result.iterations += moved.iterations;
+            result.relocations += moved.accepted;
+            settle_all(fine, 60, 1e-4);
+        }
     }
     result.times.search = clock.lap();
 

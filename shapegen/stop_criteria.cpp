@@ -93,9 +93,10 @@ StoppedFit fit_to_criteria(const TriangleMesh& body, const meshes::SignedDistanc
 
 namespace {
 
-// The most spheres that are affordable, at least `least`; `first` is the number to begin with. Nothing when not even the least is.
+// The most spheres that are affordable, at least `least`; `first` is the number to begin with, `step` how many more to try next, and twice that. Nothing when
+// not even the least is.
 std::optional<StoppedFit> most_affordable(const std::function<StoppedFit(std::uint32_t)>& make, const std::function<bool(const StoppedFit&)>& affordable,
-                                          std::uint32_t least, std::uint32_t first) {
+                                          std::uint32_t least, std::uint32_t first, std::uint32_t step) {
     std::optional<StoppedFit> best;
     std::uint32_t good = least - 1, bad = most_spheres + 1, next = first;
     while (bad - good > 1) {
@@ -106,7 +107,12 @@ std::optional<StoppedFit> most_affordable(const std::function<StoppedFit(std::ui
         } else {
             bad = next;
         }
-        next = bad > most_spheres ? std::min(2 * good, most_spheres) : std::max(least, good + (bad - good) / 2);
+        if (bad > most_spheres) {
+            next = std::min(good + step, most_spheres);
+            step *= 2;
+        } else {
+            next = std::max(least, good + (bad - good) / 2);
+        }
     }
     return best;
 }
@@ -129,7 +135,7 @@ StoppedFit fit_within_cost(const TriangleMesh& body, const meshes::SignedDistanc
         if (made) made->quality = measure_quality(made->fit.spheres, body, exact);
         return made;
     };
-    std::optional<StoppedFit> best = judge(most_affordable(make, affordable, 1, 1));
+    std::optional<StoppedFit> best = judge(most_affordable(make, affordable, 1, first_try, first_try));
     if (!best) {
         best = attempt(body, search, exact, settings, 1, progress);
         best->fit.status = FitStatus::criterion_not_met;
@@ -140,7 +146,7 @@ StoppedFit fit_within_cost(const TriangleMesh& body, const meshes::SignedDistanc
         for (const std::uint32_t contacts : {6u, 3u}) {
             with.most_contacts = contacts;
             const auto least = static_cast<std::uint32_t>(best->fit.spheres.size());
-            std::optional<StoppedFit> other = judge(most_affordable(make, affordable, least, least));
+            std::optional<StoppedFit> other = judge(most_affordable(make, affordable, least, least, std::max(1u, least / 8)));
             if (other && other->fit.status != FitStatus::limit_not_met && other->quality.both.rms < best->quality.both.rms) best = std::move(other);
         }
     }

@@ -34,7 +34,7 @@ TEST(DemCost, OfOneBallInClosedForm) {
     EXPECT_NEAR(cost.time_step / (2.0 / std::sqrt(largest)), 1.0, 1e-9);
     EXPECT_DOUBLE_EQ(cost.contacts_mean, 1.0);
     EXPECT_EQ(cost.contacts_most, 1u);
-    EXPECT_DOUBLE_EQ(cost.work, 1.0 + settings.neighbours * settings.work_of_contact);
+    EXPECT_DOUBLE_EQ(cost.work, settings.work_of_pellet + settings.work_of_sphere + 0.5 * settings.neighbours);
 }
 
 TEST(DemCost, CoplanarSpheresShareTheirFaceAndCostTheStep) {

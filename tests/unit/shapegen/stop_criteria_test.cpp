@@ -62,26 +62,5 @@ TEST(StopCriteria, NoCriterionIsAnError) {
     EXPECT_THROW(fit_to_criteria(pellet(), cylinder(), cylinder(), {}, criteria), Error);
 }
 
-double relative_cost(const std::vector<Sphere>& spheres, double density) {
-    const MassProperties mass = meshes::mass_properties(pellet(), density);
-    return dem_cost(rigid_template("", spheres, mass).spheres, mass).cost / dem_cost_of_shape_2(density).cost;
-}
-
-TEST(StopCriteria, TheBestThatTheCostBuys) {
-    FitSettings settings;
-    const StoppedFit bought = fit_within_cost(pellet(), cylinder(), cylinder(), settings, 1800.0, 0.4, {});
-    EXPECT_LE(relative_cost(bought.fit.spheres, 1800.0), 0.4);
-    EXPECT_NE(bought.fit.status, FitStatus::criterion_not_met);
-    // With the contacts held as they come it is the number of spheres that counts: one more costs too much.
-    settings.most_contacts = 1000;
-    const StoppedFit plain = fit_within_cost(pellet(), cylinder(), cylinder(), settings, 1800.0, 0.4, {});
-    FitSettings one_more;
-    one_more.sphere_count = static_cast<std::uint32_t>(plain.fit.spheres.size()) + 1;
-    EXPECT_GT(relative_cost(fit_spheres(pellet(), cylinder(), one_more).spheres, 1800.0), 0.4);
-    EXPECT_LE(bought.quality.both.rms, plain.quality.both.rms);
-    EXPECT_EQ(fit_within_cost(pellet(), cylinder(), cylinder(), {}, 1800.0, 1e-3, {}).fit.status, FitStatus::criterion_not_met);
-    EXPECT_THROW(fit_within_cost(pellet(), cylinder(), cylinder(), {}, 1800.0, 0.0, {}), Error);
-}
-
 }  // namespace
 }  // namespace pelletlab::shapegen
