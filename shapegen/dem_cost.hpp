@@ -15,7 +15,7 @@ struct DemCostSettings {
     double press = 0.0;           ///< [m], how deep a plane is pressed in; 0: 1/300 of (6 V / π)^⅓, V the body's volume
     double neighbours = 4.0;      ///< touching neighbours of a pellet in a bed: each pair's contacts are worked through once
     double work_of_pellet = 1.7;  ///< of one pellet in one step without its contacts, in works of one contact; measured on this solver (docs/quality.md)
-    double work_of_sphere = 0.0;  ///< of each of its spheres: none here, the solver looks only at those that face a neighbour; about 0.25 in a program that
+    double work_of_sphere = 0.0;  ///< of each of its spheres: none here, the solver looks only at those that face a neighbour; above 0 for a program that
                                   ///< treats every sphere as a particle
 };
 
