@@ -10,13 +10,12 @@ namespace pelletlab::diagnosis {
 
 namespace {
 
-/// Root mean square miss in tolerances with the measurement's variance taken out.
-double miss_in_tolerances(const DataSet& data, const Eigen::VectorXd& y, const Eigen::VectorXd& prediction) {
+/// Root mean square miss in tolerances; `variance` is what chance alone adds to each squared miss.
+double miss_in_tolerances(const DataSet& data, const Eigen::VectorXd& y, const Eigen::VectorXd& prediction, const Eigen::VectorXd& variance) {
     double sum = 0.0;
     for (std::size_t i = 0; i < data.points.size(); ++i) {
         const auto j = static_cast<Eigen::Index>(i);
-        const double variance = data.measurement_covariance(j, j);
-        sum += (std::pow(y[j] - prediction[j], 2) - variance) / std::pow(data.points[i].tolerance, 2);
+        sum += (std::pow(y[j] - prediction[j], 2) - variance[j]) / std::pow(data.points[i].tolerance, 2);
     }
     return std::sqrt(std::max(0.0, sum / static_cast<double>(data.points.size())));
 }
@@ -25,6 +24,26 @@ Eigen::VectorXd prediction_of(const Attributor& attributor, const DataSet& data,
     Eigen::VectorXd phi, theta;
     attributor.split(attributor.hypotheses()[static_cast<std::size_t>(hypothesis)], psi, phi, theta);
     return predict(*attributor.problem().model, data, phi, theta);
+}
+
+/// Predictions of all draws of a posterior, and their variance at each point.
+struct Predictions {
+    std::vector<Eigen::VectorXd> draws;
+    Eigen::VectorXd variance;
+};
+
+Predictions predictions_of(const Attributor& attributor, const DataSet& data, int hypothesis, const inference::Posterior& posterior) {
+    Predictions p;
+    p.variance = Eigen::VectorXd::Zero(data.value.size());
+    if (posterior.draws.empty()) return p;
+    Eigen::VectorXd mean = p.variance;
+    for (const Eigen::VectorXd& psi : posterior.draws) {
+        p.draws.push_back(prediction_of(attributor, data, hypothesis, psi));
+        mean += p.draws.back();
+    }
+    mean /= static_cast<double>(p.draws.size());
+    for (const Eigen::VectorXd& draw : p.draws) p.variance += (draw - mean).cwiseAbs2() / static_cast<double>(p.draws.size());
+    return p;
 }
 
 int best_placebo(const Attributor& attributor, const Attribution& a, int leading) {
@@ -103,28 +122,31 @@ std::vector<DiagnosisShrink> quantify(const Attributor& attributor, const Attrib
         if (data.empty()) return;
         DiagnosisShrink s;
         s.data = name;
-        s.before = miss_in_tolerances(data, data.value, prediction_of(attributor, data, 0, before_fit.mean));
-        s.after = miss_in_tolerances(data, data.value, prediction_of(attributor, data, leading, after_fit.mean));
-        s.placebo = placebo < 0 ? not_known
-                                : miss_in_tolerances(data, data.value,
-                                                     prediction_of(attributor, data, placebo, a.fits[static_cast<std::size_t>(placebo)].posterior.mean));
+        const Eigen::VectorXd noise_variance = data.measurement_covariance.diagonal();
+        const auto miss = [&](int hypothesis, const inference::Posterior& fit) {
+            return miss_in_tolerances(data, data.value, prediction_of(attributor, data, hypothesis, fit.mean), noise_variance);
+        };
+        s.before = miss(0, before_fit);
+        s.after = miss(leading, after_fit);
+        s.placebo = placebo < 0 ? not_known : miss(placebo, a.fits[static_cast<std::size_t>(placebo)].posterior);
         double floor = 0.0;
         for (Eigen::Index i = 0; i < data.value.size(); ++i)
-            floor +=
-                data.measurement_covariance(i, i) / std::pow(data.points[static_cast<std::size_t>(i)].tolerance, 2) / static_cast<double>(data.value.size());
+            floor += noise_variance[i] / std::pow(data.points[static_cast<std::size_t>(i)].tolerance, 2) / static_cast<double>(data.value.size());
         s.floor = std::sqrt(floor);
         s.shrink = s.before > 0.0 ? 1.0 - s.after / s.before : 0.0;
         RandomStream random(seed, 0x71756e74);
         const inference::Whitener noise(data.measurement_covariance + 1e-18 * Eigen::MatrixXd::Identity(data.value.size(), data.value.size()));
+        const Predictions before = predictions_of(attributor, data, 0, before_fit), after = predictions_of(attributor, data, leading, after_fit);
         std::vector<double> shrinks;
-        for (int d = 0; d < 300 && !before_fit.draws.empty() && !after_fit.draws.empty(); ++d) {
+        for (int d = 0; d < 300 && !before.draws.empty() && !after.draws.empty(); ++d) {
             const Eigen::VectorXd y = data.value + noise.colour(inference::draw_student(random, data.value.size(), std::numeric_limits<double>::infinity()));
-            const auto pick = [&](const inference::Posterior& p) {
-                return p.draws[static_cast<std::size_t>(random.uniform() * static_cast<double>(p.draws.size()))];
+            // The data hold noise already and y holds it twice; a draw misses by its own scatter too. All of it is taken out, as above.
+            const auto miss_of_draw = [&](const Predictions& p) {
+                const auto& draw = p.draws[static_cast<std::size_t>(random.uniform() * static_cast<double>(p.draws.size()))];
+                return miss_in_tolerances(data, y, draw, 2.0 * noise_variance + p.variance);
             };
-            const double before = miss_in_tolerances(data, y, prediction_of(attributor, data, 0, pick(before_fit)));
-            const double after = miss_in_tolerances(data, y, prediction_of(attributor, data, leading, pick(after_fit)));
-            if (before > 0.0) shrinks.push_back(1.0 - after / before);
+            const double gap_before = miss_of_draw(before), gap_after = miss_of_draw(after);
+            if (gap_before > 0.0) shrinks.push_back(1.0 - gap_after / gap_before);
         }
         s.lower = shrinks.empty() ? not_known : inference::quantile(shrinks, 0.05);
         s.upper = shrinks.empty() ? not_known : inference::quantile(shrinks, 0.95);
@@ -161,7 +183,8 @@ double shrink_by_runs(const Attributor& attributor, const Attribution& a, int le
     const inference::Whitener& whitener = a.fits[0].whitener;
     const auto miss = [&](const std::vector<int>& runs) {
         const int run = closest_run(attributor, runs, problem.fitted.value, whitener).run;
-        return miss_in_tolerances(data, data.value, data.from_outputs * problem.model->campaign.output.row(run).transpose());
+        return miss_in_tolerances(data, data.value, data.from_outputs * problem.model->campaign.output.row(run).transpose(),
+                                  data.measurement_covariance.diagonal());
     };
     const double before = miss(base);
     return before > 0.0 ? 1.0 - miss(with) / before : not_known;

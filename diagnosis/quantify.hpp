@@ -8,7 +8,7 @@ namespace pelletlab::diagnosis {
 
 /// G² = mean of ((y − m)² − σ²)/t², σ² the measurement's variance, t the tolerance. Before: «parameters only»; after: hypothesis `leading`; placebo: the most
 /// probable single effect that `leading` does not contain. Both fitted to the same data; rows for fitted and held-out data; 90 % intervals over posterior draws
-/// and measurement noise.
+/// and measurement noise drawn once more, whose variances are taken off each squared miss of a draw too, so that the interval lies about the value.
 std::vector<DiagnosisShrink> quantify(const Attributor& attributor, const Attribution& attribution, int leading, std::uint64_t seed);
 
 /// Campaign runs with both effects against runs with one of them, each at its best (on a segment between two of the dozen nearest runs), on the fitted data

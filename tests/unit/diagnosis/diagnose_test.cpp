@@ -198,6 +198,10 @@ TEST(Diagnose, TheWholeReportIsReproducibleAndSurvivesItsFile) {
     for (const auto& h : a.hypotheses) total += h.probability;
     EXPECT_NEAR(total, 1.0, 1e-12);
     EXPECT_GT(a.how_far.at(0).shrink, 0.5);
+    for (const DiagnosisShrink& s : a.how_far) {  // chance is taken out of the interval as it is out of the value
+        EXPECT_LT(s.lower, s.shrink) << s.data;
+        EXPECT_GT(s.upper, s.shrink) << s.data;
+    }
     EXPECT_LT(a.how_far.at(0).after, a.how_far.at(0).placebo);
     ASSERT_EQ(a.next.size(), 2u);
     for (const auto& n : a.next) EXPECT_GE(n.information, 0.0);
