@@ -155,8 +155,11 @@ RunSummary finish_run(const Case& c, const StageKey& key, const packing::RunInpu
     Written written{{"run.h5", "trajectory, HDF5"}, {"observables.json", "measured values, profiles and maps"}};
     const auto trajectory = io::open_trajectory(folder / "run.h5");
     if (c.output.paraview) {
-        io::write_paraview(*trajectory, folder / "paraview", c.output.paraview_every);
-        written.emplace_back("paraview/bodies.pvd", "ParaView; spheres.pvd and walls.pvd beside it");
+        const io::ParaviewFiles files = io::write_paraview(*trajectory, folder / "paraview", c.output.paraview_every);
+        written.emplace_back("paraview/bodies.pvd", files.surface.empty()
+                                                        ? "ParaView; spheres.pvd and walls.pvd beside it; too many triangles for surface-last.vtp: "
+                                                          "let glyphs of pellet-0.vtp draw the pellets"
+                                                        : "ParaView; spheres.pvd, walls.pvd and surface-last.vtp beside it");
     }
     if (c.output.pictures) write_pictures(c, *trajectory, result.observables, folder, written);
     throw_if_interrupted();

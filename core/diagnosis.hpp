@@ -27,7 +27,7 @@ struct DiagnosisPlan {
         double absorbed_share = 0.0;          ///< 1 − λ_k0 / (squared distance without recalibration)
         double detectable_from = 0.0;         ///< amplitude θ at which λ_k0 reaches 9; NaN when θ = 1 does not
         std::string amplitude_text;           ///< the same in the effect's unit
-        double expected_error = 0.0;          ///< Σ_l Φ(−√λ_kl / 2): bound on the chance to name another effect at θ = 1
+        double expected_error = 0.0;          ///< Σ_l Φ(−√λ_kl / 2), at most 1: bound on the chance to name another effect at θ = 1
     };
     std::vector<Effect> effects;
     std::vector<std::vector<double>> separability;  ///< λ_kl: effect k at θ = 1 against the best that effect l can do

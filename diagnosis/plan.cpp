@@ -131,6 +131,7 @@ DiagnosisPlan make_plan(const Attributor& attributor, int points) {
             plan.separability[static_cast<std::size_t>(e)][static_cast<std::size_t>(other)] = lambda;
             row.expected_error += inference::normal_cdf(-0.5 * std::sqrt(lambda));
         }
+        row.expected_error = std::min(1.0, row.expected_error);  // a sum over rivals bounds a probability only as far as it is one
         plan.effects.push_back(row);
     }
     add_leverages(attributor, phis[0], plan);

@@ -119,14 +119,15 @@ VtkPolyData walls_of(const TrajectoryHeader& header, const Frame& frame) {
 
 /// VTK's indices are 32 bits wide here: refuse before they overflow.
 void check_size(const TrajectoryHeader& header) {
-    double corners = 0.0, points = 0.0;
-    for (const std::uint32_t shape : header.shape_of_body) {
-        const PelletShape& s = header.shapes[shape];
-        corners += 3.0 * static_cast<double>(s.surface_body.faces.size());
-        points += static_cast<double>(std::max(s.surface_body.vertices.size(), s.rigid.spheres.size()));
-    }
-    if (corners > 2e9 || points > 2e9)
-        throw bad_input("the pellets' surfaces are too fine for ParaView files", "use a coarser mesh or set output.paraview = false");
+    double points = 0.0;
+    for (const std::uint32_t shape : header.shape_of_body) points += static_cast<double>(header.shapes[shape].rigid.spheres.size());
+    if (points > 2e9) throw bad_input("the pellets have too many spheres for ParaView files", "set output.paraview = false");
+}
+
+std::size_t surface_triangles(const TrajectoryHeader& header) {
+    std::size_t count = 0;
+    for (const std::uint32_t shape : header.shape_of_body) count += header.shapes[shape].surface_body.faces.size();
+    return count;
 }
 
 std::vector<std::size_t> chosen_frames(std::size_t count, std::size_t every) {
@@ -138,7 +139,7 @@ std::vector<std::size_t> chosen_frames(std::size_t count, std::size_t every) {
 
 }  // namespace
 
-ParaviewFiles write_paraview(const FrameSource& trajectory, const fs::path& folder, std::size_t every) {
+ParaviewFiles write_paraview(const FrameSource& trajectory, const fs::path& folder, std::size_t every, std::size_t most_surface) {
     const TrajectoryHeader& header = trajectory.header();
     check_size(header);
     struct Series {
@@ -166,9 +167,12 @@ ParaviewFiles write_paraview(const FrameSource& trajectory, const fs::path& fold
         push_mesh(data, header.shapes[shape].surface_body, {});
         write_text(folder / ("pellet-" + std::to_string(shape) + ".vtp"), detail::vtp_text(data));
     }
-    if (trajectory.frame_count() > 0)
-        write_text(folder / "surface-last.vtp", detail::vtp_text(surfaces_of(header, trajectory.frame(trajectory.frame_count() - 1))));
-    return {folder / "bodies.pvd", folder / "spheres.pvd", folder / "walls.pvd"};
+    ParaviewFiles files{folder / "bodies.pvd", folder / "spheres.pvd", folder / "walls.pvd", {}};
+    if (trajectory.frame_count() > 0 && surface_triangles(header) <= most_surface) {
+        files.surface = folder / "surface-last.vtp";
+        write_text(files.surface, detail::vtp_text(surfaces_of(header, trajectory.frame(trajectory.frame_count() - 1))));
+    }
+    return files;
 }
 
 }  // namespace pelletlab::io

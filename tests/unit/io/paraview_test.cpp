@@ -201,6 +201,16 @@ TEST(Paraview, BodiesArePointsWithTheirPose) {
     EXPECT_THAT(numbers_of<std::int32_t>(root, piece.child("PointData").array("body")), ElementsAre(0, 1, 2));
 }
 
+TEST(Paraview, SurfacesOfALargeBedAreLeftOut) {
+    const test::TemporaryFolder folder;
+    const io::ParaviewFiles files = io::write_paraview(small_trajectory(1), folder.path(), 1, 1);  // two pellets have one triangle each
+    EXPECT_TRUE(files.surface.empty());
+    EXPECT_FALSE(std::filesystem::exists(folder / "surface-last.vtp"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "pellet-0.vtp"));
+    EXPECT_EQ(io::write_paraview(small_trajectory(1), folder.path(), 1, 2).surface, folder / "surface-last.vtp");
+    EXPECT_TRUE(std::filesystem::exists(folder / "surface-last.vtp"));
+}
+
 TEST(Paraview, TrueSurfacesAreThereOnceAndAtTheLastPoses) {
     const test::TemporaryFolder folder;
     io::write_paraview(small_trajectory(1), folder.path());
