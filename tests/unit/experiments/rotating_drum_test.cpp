@@ -67,6 +67,35 @@ TEST(RotatingDrum, LiftsItsBedOnTheLeft) {
     for (const Pose& pose : frames.back().wall_poses) EXPECT_TRUE(pose.orientation.isApprox(frames.back().wall_poses[0].orientation, 1e-12));
 }
 
+TEST(RotatingDrum, TheEnergyBookBalances) {
+    Case c = drum_case(40);
+    c.physics.energy_book = true;
+    c.time.measure = 0.05;
+    c.time.step *= 0.25;
+    std::vector<Frame> frames;
+    const auto inputs = dumbbell_inputs();
+    const auto result =
+        run_drum(c, inputs, [&](const TrajectoryHeader&) { return packing::FrameSink([&](const Frame& frame) { frames.push_back(frame); }); }, {});
+    expect_documented(result.observables);
+    const double mass = inputs.clump.rigid.mass_properties.mass;
+    double start = 0.0;  // [mJ] of the cloud
+    for (std::size_t i = 0; i < frames[0].positions.size(); ++i)
+        start += 1e3 * mass * (9.81 * frames[0].positions[i].z() + 0.5 * frames[0].velocities[i].squaredNorm());
+    double put_in = 0.0, there = 0.0, lost = 0.0;
+    for (const Observable& o : result.observables.values) {
+        if (o.method != "run.energy_book") continue;
+        if (o.name.rfind("work_of_", 0) == 0 || o.name == "energy_fed")
+            put_in += o.value;
+        else if (o.name.rfind("dissipated_", 0) == 0)
+            lost += o.value;
+        else
+            there += o.value;
+    }
+    EXPECT_GT(put_in, 0.0);
+    EXPECT_GT(lost, 0.0);
+    EXPECT_NEAR(start + put_in, there + lost, 2e-3 * (put_in + lost)) << "the time step's error: 5e-3 with the whole step";
+}
+
 TEST(RotatingDrum, EndPlatesMayStandStill) {
     Case c = drum_case(40);
     c.drum.end_plates_rotate = false;
