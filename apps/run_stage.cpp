@@ -150,6 +150,8 @@ RunSummary finish_run(const Case& c, const StageKey& key, const packing::RunInpu
     packing::RunResult result = run_rig(c, inputs, keeper, folder / "run.h5");
     result.observables.provenance = inputs.provenance;
     print_observables(result.observables);
+    if (!result.energy_book.empty()) print_line("Energy book [mJ] (docs/observables.md):");
+    for (const packing::BookLine& line : result.energy_book) print_line(fmt::format("  {:<30} {:.6g}", line.name, line.value));
     io::write_text(folder / "case.resolved.toml", io::resolved_case_text(as_seen_from(c, summary.folder)));
     io::write_observables(result.observables, folder / "observables.json");
     Written written{{"run.h5", "trajectory, HDF5"}, {"observables.json", "measured values, profiles and maps"}};

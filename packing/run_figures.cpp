@@ -22,29 +22,28 @@ void add_contact_figures(Observables& observables, const solver::Simulation& sim
     add("wall_contacts_per_pellet", static_cast<double>(contacts.wall_contacts) / pellets, {now, now}, "run.contacts");
 }
 
-void add_energy_book(Observables& observables, const solver::Simulation& simulation) {
-    if (!simulation.definition().physics.energy_book) return;
+std::vector<BookLine> energy_book(const solver::Simulation& simulation) {
+    if (!simulation.definition().physics.energy_book) return {};
     const solver::EnergyReport e = simulation.energy();
-    const double now = simulation.time();
-    const auto add = [&](const std::string& name, double joule, double since) {
-        observables.values.push_back({name, "mJ", 1e3 * joule, not_known, {since, now}, "run.energy_book"});
-    };
-    add("energy_kinetic", e.kinetic_translation + e.kinetic_rotation, now);
-    add("energy_gravity", e.gravity, now);
-    add("energy_elastic", e.elastic_normal + e.elastic_tangential + e.elastic_rolling, now);
-    for (std::size_t w = 0; w < e.wall_work.size(); ++w) add("work_of_" + simulation.definition().walls[w].name, e.wall_work[w], 0.0);
-    add("work_of_body_forces", e.body_force_work, 0.0);
-    add("energy_fed", e.fed, 0.0);
-    add("dissipated_normal_damping", e.normal_damping, 0.0);
-    add("dissipated_tangential_damping", e.tangential_damping, 0.0);
-    add("dissipated_sliding", e.sliding, 0.0);
-    add("dissipated_rolling", e.rolling, 0.0);
+    std::vector<BookLine> book;
+    const auto add = [&](const std::string& name, double joule) { book.push_back({name, 1e3 * joule}); };
+    add("energy_kinetic", e.kinetic_translation + e.kinetic_rotation);
+    add("energy_gravity", e.gravity);
+    add("energy_elastic", e.elastic_normal + e.elastic_tangential + e.elastic_rolling);
+    for (std::size_t w = 0; w < e.wall_work.size(); ++w) add("work_of_" + simulation.definition().walls[w].name, e.wall_work[w]);
+    add("work_of_body_forces", e.body_force_work);
+    add("energy_fed", e.fed);
+    add("dissipated_normal_damping", e.normal_damping);
+    add("dissipated_tangential_damping", e.tangential_damping);
+    add("dissipated_sliding", e.sliding);
+    add("dissipated_rolling", e.rolling);
+    return book;
 }
 
 RunResult run_result(Observables measured, const solver::Simulation& simulation, const RunMeter& meter) {
     add_contact_figures(measured, simulation, meter);
-    add_energy_book(measured, simulation);
-    return {std::move(measured), simulation.state_hash(), meter.steps, meter.wall_seconds, meter.pellet_steps_per_second(simulation.bodies().size())};
+    return {std::move(measured),    simulation.state_hash(), meter.steps, meter.wall_seconds, meter.pellet_steps_per_second(simulation.bodies().size()),
+            energy_book(simulation)};
 }
 
 double load_share(const solver::Simulation& simulation, const std::string& wall) {

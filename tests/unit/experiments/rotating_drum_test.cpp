@@ -82,8 +82,8 @@ TEST(RotatingDrum, TheEnergyBookBalances) {
     for (std::size_t i = 0; i < frames[0].positions.size(); ++i)
         start += 1e3 * mass * (9.81 * frames[0].positions[i].z() + 0.5 * frames[0].velocities[i].squaredNorm());
     double put_in = 0.0, there = 0.0, lost = 0.0;
-    for (const Observable& o : result.observables.values) {
-        if (o.method != "run.energy_book") continue;
+    EXPECT_FALSE(result.energy_book.empty());
+    for (const packing::BookLine& o : result.energy_book) {
         if (o.name.rfind("work_of_", 0) == 0 || o.name == "energy_fed")
             put_in += o.value;
         else if (o.name.rfind("dissipated_", 0) == 0)
